@@ -1,0 +1,76 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "atom_vec_membrane_cp.h"
+
+#include "atom.h"
+#include "error.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
+    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), surface(lmp)
+{
+  mass_type = PER_ATOM;
+  atom->rmass_flag = 1;
+
+  for (auto *fields : {&fields_grow, &fields_copy, &fields_border, &fields_border_vel,
+                       &fields_exchange, &fields_restart, &fields_create})
+    fields->emplace_back("rmass");
+  fields_data_atom = {"id", "molecule", "type", "rmass", "x"};
+
+  setup_fields();
+}
+
+/* ----------------------------------------------------------------------
+   optional argument: which angle types are faces
+------------------------------------------------------------------------- */
+
+void AtomVecMembraneCP::process_args(int narg, char **arg)
+{
+  if (narg == 0) return;
+  if (narg != 2 || strcmp(arg[0], "faces") != 0)
+    error->all(FLERR, "Unknown atom_style membrane_cp argument {}; the only one is: faces TYPES",
+               arg[0]);
+  surface.set_face_types(arg[1]);
+}
+
+void AtomVecMembraneCP::grow_pointers()
+{
+  AtomVecAngle::grow_pointers();
+  rmass = atom->rmass;
+}
+
+void AtomVecMembraneCP::create_atom_post(int ilocal)
+{
+  rmass[ilocal] = 1.0;
+}
+
+void AtomVecMembraneCP::data_atom_post(int ilocal)
+{
+  AtomVecAngle::data_atom_post(ilocal);
+  if (!(rmass[ilocal] > 0.0) || !std::isfinite(rmass[ilocal]))
+    error->one(FLERR,
+               "Atom {} in the Atoms section of the data file has mass {}; columns are: "
+               "id molecule type mass x y z, and masses must be positive",
+               atom->tag[ilocal], rmass[ilocal]);
+}

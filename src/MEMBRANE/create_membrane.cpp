@@ -1,0 +1,369 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "create_membrane.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "membrane_mesh_file.h"
+#include "membrane_mesh_shapes.h"
+#include "memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Membrane_NS::Face;
+using Membrane_NS::MeshError;
+using Membrane_NS::TriangleMesh;
+
+/* ---------------------------------------------------------------------- */
+
+CreateMembrane::CreateMembrane(LAMMPS *lmp) :
+    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), mass(1.0), interpolated(false),
+    centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateMembrane::command(int narg, char **arg)
+{
+  if (!domain->box_exist) error->all(FLERR, "create_membrane needs a box: use create_box first");
+  DistributedMesh::of(lmp, "create_membrane");
+  if (domain->dimension != 3) error->all(FLERR, "create_membrane needs dimension 3");
+  if (narg < 3) utils::missing_cmd_args(FLERR, "create_membrane", error);
+
+  type = utils::expand_type_int(FLERR, arg[0], Atom::ATOM, lmp);
+  if (type < 1 || type > atom->ntypes)
+    error->all(FLERR, "create_membrane type {} is not one of the {} atom types of the box", arg[0],
+               atom->ntypes);
+  if (atom->nangletypes < 1)
+    error->all(FLERR, "create_membrane needs an angle type for its faces: add angle/types 1 to "
+                      "create_box");
+
+  TriangleMesh mesh;
+  for (int k = 0; k < 3; ++k) mesh.periodic[k] = domain->periodicity[k] != 0;
+  mesh.lattice << domain->h[0], domain->h[5], domain->h[4], 0.0, domain->h[1], domain->h[3], 0.0,
+      0.0, domain->h[2];
+  for (int k = 0; k < 3; ++k) centre[k] = 0.5 * (domain->boxlo[k] + domain->boxhi[k]);
+  if (domain->triclinic) {
+    double half[3] = {0.5, 0.5, 0.5};
+    domain->lamda2x(half, centre);
+  }
+
+  try {
+    const int used = parse_shape(narg - 1, arg + 1, mesh);
+    parse_options(narg - 1 - used, arg + 1 + used);
+
+    for (auto &p : mesh.points)
+      for (int k = 0; k < 3; ++k) p[k] = scale[k] * p[k] + (centred ? centre[k] : 0.0);
+
+    Membrane_NS::Topology(mesh.points.size(), mesh.faces);
+    if (interpolated) mesh = Membrane_NS::interpolate(mesh);
+    for (int i = 0; i < refine; ++i) mesh = Membrane_NS::loop_refine(mesh);
+  } catch (const MeshError &err) {
+    error->all(FLERR, "create_membrane {}: {}", shape, err.what());
+  }
+
+  add_atoms(mesh);
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Created membrane {}: {} control points, {} faces\n", molecule,
+                   mesh.points.size(), mesh.faces.size());
+}
+
+/* ----------------------------------------------------------------------
+   the shape and its numbers; returns how many words it took
+------------------------------------------------------------------------- */
+
+int CreateMembrane::parse_shape(int narg, char **arg, TriangleMesh &mesh)
+{
+  shape = arg[0];
+  auto need = [&](int n) {
+    if (narg < n + 1) utils::missing_cmd_args(FLERR, "create_membrane " + shape, error);
+  };
+  auto number = [&](int i) { return utils::numeric(FLERR, arg[i], false, lmp); };
+  auto integer = [&](int i) { return utils::inumeric(FLERR, arg[i], false, lmp); };
+
+  const auto lattice = mesh.lattice;
+  const auto periodic = mesh.periodic;
+  int used = 0;
+  if (shape == "sphere") {
+    need(2);
+    mesh = Membrane_NS::icosphere(integer(1), number(2));
+    used = 3;
+  } else if (shape == "plane") {
+    need(2);
+    used = 3;
+    if (!periodic[0] || !periodic[1])
+      error->all(FLERR, "create_membrane plane needs a box that is periodic in x and y");
+    mesh = Membrane_NS::sheet(integer(1), integer(2), lattice, 0.5);
+    centred = false;
+    for (auto &p : mesh.points)
+      for (int k = 0; k < 3; ++k) p[k] += domain->boxlo[k];
+  } else if (shape == "cylinder") {
+    need(4);
+    used = 5;
+    const std::string axis = arg[4];
+    const int which = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : -1;
+    if (which < 0)
+      error->all(FLERR, "create_membrane cylinder axis {} is not x, y or z", axis);
+    if (!periodic[which])
+      error->all(FLERR, "create_membrane cylinder needs a box that is periodic in {}", axis);
+    mesh = Membrane_NS::tube(integer(1), integer(2), number(3), lattice, which);
+  } else if (shape == "torus") {
+    need(4);
+    mesh = Membrane_NS::torus(integer(1), integer(2), number(3), number(4));
+    used = 5;
+  } else if (shape == "file") {
+    need(1);
+    read_file(arg[1], mesh);
+    used = 2;
+    centred = false;
+  } else
+    error->all(FLERR,
+               "Unknown create_membrane shape {}; known are: sphere, plane, cylinder, torus, file",
+               shape);
+
+  mesh.lattice = lattice;
+  mesh.periodic = periodic;
+  return used;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateMembrane::parse_options(int narg, char **arg)
+{
+  auto need = [&](int iarg, int n) {
+    if (iarg + n >= narg)
+      utils::missing_cmd_args(FLERR, std::string("create_membrane ") + arg[iarg], error);
+  };
+  int iarg = 0;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    need(iarg, 1);
+    if (key == "centre" || key == "center") {
+      need(iarg, 3);
+      for (int k = 0; k < 3; ++k) centre[k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+      centred = true;
+      iarg += 4;
+    } else if (key == "scale") {
+      need(iarg, 3);
+      for (int k = 0; k < 3; ++k) {
+        scale[k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+        if (scale[k] <= 0.0)
+          error->all(FLERR, "create_membrane scale {} must be positive", arg[iarg + 1 + k]);
+      }
+      iarg += 4;
+    } else if (key == "refine") {
+      refine = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (refine < 0 || refine > 10)
+        error->all(FLERR, "create_membrane refine {} must be between 0 and 10", arg[iarg + 1]);
+      iarg += 2;
+    } else if (key == "interpolate") {
+      interpolated = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
+    } else if (key == "molecule" || key == "mol") {
+      molecule = utils::tnumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (molecule < 1)
+        error->all(FLERR, "create_membrane molecule {} must be positive", arg[iarg + 1]);
+      iarg += 2;
+    } else if (key == "mass") {
+      mass = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (!(mass > 0.0)) error->all(FLERR, "create_membrane mass {} must be positive", arg[iarg + 1]);
+      iarg += 2;
+    } else if (key == "face/type") {
+      angle_type = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ANGLE, lmp);
+      iarg += 2;
+    } else
+      error->all(FLERR,
+                 "Unknown create_membrane keyword {}; known are: center, scale, refine, interpolate, "
+                 "molecule, mass, face/type",
+                 key);
+  }
+  if (angle_type < 1 || angle_type > atom->nangletypes)
+    error->all(FLERR, "create_membrane face/type {} is not one of the {} angle types of the box",
+               angle_type, atom->nangletypes);
+  if (shape == "plane" && (scale[0] != 1.0 || scale[1] != 1.0))
+    error->all(FLERR, "create_membrane plane spans the box: it cannot be scaled in x or y");
+}
+
+/* ----------------------------------------------------------------------
+   read on one rank; all ranks fail together
+------------------------------------------------------------------------- */
+
+void CreateMembrane::read_file(const char *path, TriangleMesh &mesh)
+{
+  std::string message;
+  if (comm->me == 0) {
+    try {
+      mesh = Membrane_NS::read_mesh(path);
+    } catch (const MeshError &err) {
+      message = err.what();
+    }
+  }
+  int sizes[3] = {(int) message.size(), (int) mesh.points.size(), (int) mesh.faces.size()};
+  MPI_Bcast(sizes, 3, MPI_INT, 0, world);
+  message.resize(sizes[0]);
+  MPI_Bcast(message.data(), sizes[0], MPI_CHAR, 0, world);
+  if (!message.empty()) throw MeshError(message);
+  mesh.points.resize(sizes[1]);
+  mesh.faces.resize(sizes[2]);
+  MPI_Bcast(mesh.points.data(), 3 * sizes[1], MPI_DOUBLE, 0, world);
+  MPI_Bcast(mesh.faces.data(), 3 * sizes[2], MPI_INT, 0, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CreateMembrane::check_inside_box(const TriangleMesh &mesh)
+{
+  for (const auto &p : mesh.points) {
+    double s[3] = {p[0], p[1], p[2]};
+    if (domain->triclinic) domain->x2lamda(s, s);
+    const double *lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+    const double *hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+    for (int k = 0; k < 3; ++k)
+      if (!domain->periodicity[k] && domain->boundary[k][0] == 0 && (s[k] < lo[k] || s[k] > hi[k]))
+        error->all(FLERR,
+                   "create_membrane {}: control point ({:.6g}, {:.6g}, {:.6g}) is outside the box, "
+                   "which is not periodic in {}; enlarge the box or use scale and center",
+                   shape, p[0], p[1], p[2], "xyz"[k]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   make room for n angles per atom in arrays that may already hold some
+------------------------------------------------------------------------- */
+
+template <typename T> static void widen(Memory *memory, T **&array, int rows, int used, int wide)
+{
+  T **wider;
+  memory->create(wider, MAX(rows, 1), wide, "atom:angle");
+  for (int i = 0; i < rows; ++i) {
+    for (int m = 0; m < used; ++m) wider[i][m] = array[i][m];
+    for (int m = used; m < wide; ++m) wider[i][m] = 0;
+  }
+  memory->destroy(array);
+  array = wider;
+}
+
+void CreateMembrane::reserve_angles(int n)
+{
+  if (n <= atom->angle_per_atom) return;
+  const int rows = atom->nmax, used = atom->angle_per_atom;
+  atom->angle_per_atom = n;
+  widen(memory, atom->angle_type, rows, used, n);
+  widen(memory, atom->angle_atom1, rows, used, n);
+  widen(memory, atom->angle_atom2, rows, used, n);
+  widen(memory, atom->angle_atom3, rows, used, n);
+  atom->avec->grow_pointers();
+}
+
+/* ----------------------------------------------------------------------
+   each rank creates the points in its sub-domain
+------------------------------------------------------------------------- */
+
+void CreateMembrane::add_atoms(const TriangleMesh &mesh)
+{
+  check_inside_box(mesh);
+  const int npoints = mesh.points.size();
+
+  tagint most[2] = {0, 0}, maximum[2];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    most[0] = MAX(most[0], atom->tag[i]);
+    most[1] = MAX(most[1], atom->molecule[i]);
+  }
+  MPI_Allreduce(most, maximum, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (molecule == 0) molecule = maximum[1] + 1;
+  const tagint first = maximum[0] + 1;
+  if ((bigint) maximum[0] + npoints >= MAXTAGINT)
+    error->all(FLERR, "create_membrane: too many atoms for their IDs; build LAMMPS with BIGBIG");
+
+  // LAMMPS stores an angle with its middle atom, or with all three if newton_bond is off. Which
+  // corner is the middle one is free: take the one that has fewest, for narrow arrays
+
+  std::vector<std::vector<int>> stored(npoints);
+  std::vector<Face> turned = mesh.faces;
+  for (size_t f = 0; f < turned.size(); ++f) {
+    Face &face = turned[f];
+    if (!force->newton_bond) {
+      for (int v : face) stored[v].push_back(f);
+      continue;
+    }
+    int middle = 0;
+    for (int k = 1; k < 3; ++k)
+      if (stored[face[k]].size() < stored[face[middle]].size()) middle = k;
+    std::rotate(face.begin(), face.begin() + (middle + 2) % 3, face.end());
+    stored[face[1]].push_back(f);
+  }
+  size_t widest = 0;
+  for (const auto &list : stored) widest = std::max(widest, list.size());
+
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+  reserve_angles(widest);
+
+  // all images of a point go to the rank that owns the one inside the box
+
+  const int nlocal_previous = atom->nlocal;
+  if (comm->layout == Comm::LAYOUT_TILED) comm->coord2proc_setup();
+  for (int v = 0; v < npoints; ++v) {
+    double x[3] = {mesh.points[v][0], mesh.points[v][1], mesh.points[v][2]};
+    imageint image = ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;
+    domain->remap(x, image);
+    double s[3] = {x[0], x[1], x[2]};
+    if (domain->triclinic) domain->x2lamda(x, s);
+    int px, py, pz;
+    if (comm->coord2proc(s, px, py, pz) != comm->me) continue;
+
+    atom->avec->create_atom(type, x);
+    const int i = atom->nlocal - 1;
+    atom->tag[i] = first + v;
+    atom->molecule[i] = molecule;
+    atom->image[i] = image;
+    atom->rmass[i] = mass;
+    atom->num_angle[i] = stored[v].size();
+    for (size_t m = 0; m < stored[v].size(); ++m) {
+      const Face &face = turned[stored[v][m]];
+      atom->angle_type[i][m] = angle_type;
+      atom->angle_atom1[i][m] = first + face[0];
+      atom->angle_atom2[i][m] = first + face[1];
+      atom->angle_atom3[i][m] = first + face[2];
+    }
+  }
+  atom->data_fix_compute_variable(nlocal_previous, atom->nlocal);
+
+  const bigint before = atom->natoms;
+  bigint nlocal = atom->nlocal;
+  MPI_Allreduce(&nlocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (atom->natoms != before + npoints)
+    error->all(FLERR, "create_membrane lost {} control points: is the box smaller than the mesh?",
+               before + npoints - atom->natoms);
+  atom->nangles += mesh.faces.size();
+  atom->tag_check();
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
+}

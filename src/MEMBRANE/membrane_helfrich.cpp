@@ -1,0 +1,385 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_helfrich.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+using namespace Membrane_NS;
+
+static constexpr int MOST_POINTS = 192;    // control points of one face
+
+/* ----------------------------------------------------------------------
+   groups
+------------------------------------------------------------------------- */
+
+std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchRules &rules,
+                                                const std::vector<int> &faces)
+{
+  // turn each face such that equal sets of valences give equal keys: fewer, fuller groups
+
+  struct Member {
+    int face, first;
+  };
+  std::map<Valences, std::vector<Member>> members;
+  for (int f : faces) {
+    const Face &face = topology.face(f);
+    const Valences n = {topology.valence(face[0]), topology.valence(face[1]),
+                        topology.valence(face[2])};
+    auto rank = [](const Valences &v) {
+      Valences r;
+      for (int k = 0; k < 3; ++k) r[k] = v[k] == 6 ? 0 : v[k];
+      return r;
+    };
+    int first = 0;
+    Valences key = n;
+    for (int k = 1; k < 3; ++k) {
+      const Valences turned = {n[k], n[(k + 1) % 3], n[(k + 2) % 3]};
+      if (rank(turned) > rank(key)) {
+        key = turned;
+        first = k;
+      }
+    }
+    members[key].push_back({f, first});
+  }
+
+  std::vector<FaceGroup> groups;
+  std::vector<int> stencil;
+  int slot = 0;
+  for (const auto &[valences, list] : members) {
+    FaceGroup group;
+    if (valences[0] + valences[1] + valences[2] - 6 > MOST_POINTS)
+      throw MeshError("face " + std::to_string(list[0].face) + " has corners of valence " +
+                      std::to_string(valences[0]) + ", " + std::to_string(valences[1]) + ", " +
+                      std::to_string(valences[2]) + "; their sum may be at most " +
+                      std::to_string(MOST_POINTS + 6));
+    group.rule = &rules.get(valences);
+    group.first_slot = slot;
+    group.nfaces = static_cast<int>(list.size());
+    group.points.resize(static_cast<size_t>(group.nslots()) * group.rule->size);
+    for (int i = 0; i < group.nslots(); ++i) {
+      const Member &member = list[std::min(i, group.nfaces - 1)];
+      if (i < group.nfaces) group.face.push_back(member.face);
+      topology.stencil(member.face, stencil, member.first);
+      for (int k = 0; k < group.rule->size; ++k) group.point(i, k) = stencil[k];
+    }
+    slot += group.nslots();
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+int Membrane_NS::count_slots(const std::vector<FaceGroup> &groups)
+{
+  return groups.empty() ? 0 : groups.back().first_slot + groups.back().nslots();
+}
+
+void FaceModel::resize(int nslots)
+{
+  for (auto *array : {&kc, &c0, &kg, &tension, &pressure}) array->assign(nslots, 0.0);
+  origin.assign(3 * static_cast<size_t>(nslots), 0.0);
+}
+
+/* ----------------------------------------------------------------------
+   a vector of LANES doubles, one for each face of a block, with elementwise arithmetic
+------------------------------------------------------------------------- */
+
+namespace {
+
+typedef double Lane __attribute__((vector_size(LANES * sizeof(double))));
+
+struct Lane3 {
+  Lane x, y, z;
+};
+
+inline Lane3 operator+(const Lane3 &a, const Lane3 &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Lane3 operator-(const Lane3 &a, const Lane3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Lane3 operator*(const Lane &s, const Lane3 &a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Lane3 operator*(double s, const Lane3 &a) { return {s * a.x, s * a.y, s * a.z}; }
+inline void operator+=(Lane3 &a, const Lane3 &b)
+{
+  a.x += b.x;
+  a.y += b.y;
+  a.z += b.z;
+}
+inline Lane dot(const Lane3 &a, const Lane3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Lane3 cross(const Lane3 &a, const Lane3 &b)
+{
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline Lane sqrt(const Lane &a)
+{
+  Lane root;
+  for (int l = 0; l < LANES; ++l) root[l] = std::sqrt(a[l]);
+  return root;
+}
+
+inline Lane load(const std::vector<double> &array, int slot)
+{
+  Lane lane;
+  std::memcpy(&lane, array.data() + slot, sizeof(Lane));
+  return lane;
+}
+
+inline void store(std::vector<double> &array, int slot, const Lane &lane)
+{
+  std::memcpy(array.data() + slot, &lane, sizeof(Lane));
+}
+
+inline Lane3 load3(const std::vector<double> &array, int slot)
+{
+  Lane3 lane;
+  for (int l = 0; l < LANES; ++l) {
+    lane.x[l] = array[3 * (slot + l)];
+    lane.y[l] = array[3 * (slot + l) + 1];
+    lane.z[l] = array[3 * (slot + l) + 2];
+  }
+  return lane;
+}
+
+constexpr int REGULAR = 12;        // control points of a regular face
+
+// fetch the control points of a block, relative to its first ones
+inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out)
+{
+  for (int k = 0; k < size; ++k)
+    for (int l = 0; l < LANES; ++l) {
+      const double *p = x[points[k * LANES + l]];
+      out[k].x[l] = p[0];
+      out[k].y[l] = p[1];
+      out[k].z[l] = p[2];
+    }
+}
+
+inline Lane3 combine(const double *weights, const Lane3 *x, int size)
+{
+  Lane3 sum = weights[0] * x[0];
+  for (int k = 1; k < size; ++k) sum += weights[k] * x[k];
+  return sum;
+}
+
+/* ----------------------------------------------------------------------
+   first pass on one block
+------------------------------------------------------------------------- */
+
+template <int SIZE, bool VOLUME>
+void integrate_block(const PatchRule &rule, const Lane3 *x, const Lane3 &origin, Lane &area,
+                     Lane &volume, Lane3 &vector_area)
+{
+  const int size = SIZE ? SIZE : rule.size;
+  area = volume = Lane{};
+  vector_area = Lane3{};
+  for (int q = 0; q < rule.npoints; ++q) {
+    const double weight = rule.weight[q];
+    const Lane3 a = cross(combine(rule.row(q, LimitBasis::DU), x, size),
+                          combine(rule.row(q, LimitBasis::DV), x, size));
+    area += weight * sqrt(dot(a, a));
+    if (VOLUME) {
+      const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), x, size) - origin;
+      volume += (weight / 3.0) * dot(r, a);
+      vector_area += weight * a;
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   second pass on one block: energies, and the gradient g on the control points.
+
+   With a = r_u x r_v, J = |a|, E = r_u.r_u, F = r_u.r_v, G = r_v.r_v and
+   B = G r_uu - 2 F r_uv + E r_vv:
+     2H = -B.a/J^3,   K J = [(r_uu.a)(r_vv.a) - (r_uv.a)^2]/J^3,
+   so the energy density per (u, v) is a function of s = B.a and W = J^2 alone,
+     e = kc/2 (2H - c0)^2 J + tension J,
+     de/ds = -kc (2H - c0)/W,   de/dW = kc (2H - c0)/J [(2H - c0)/4 - 3/2 2H] + tension/(2 J),
+   and the chain rule runs back through B, E, F, G and a to the derivatives of r. The volume is
+   (1/3) (r - origin).a.
+------------------------------------------------------------------------- */
+
+template <int SIZE, bool GAUSS, bool VOLUME>
+void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, Lane3 *g,
+                 Lane &bending, Lane &gauss, Lane &area)
+{
+  const int size = SIZE ? SIZE : rule.size;
+  const Lane kc = load(model.kc, slot), c0 = load(model.c0, slot);
+  const Lane tension = load(model.tension, slot);
+  const Lane kg = GAUSS ? load(model.kg, slot) : Lane{};
+  const Lane pressure = VOLUME ? load(model.pressure, slot) : Lane{};
+  const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
+
+  bending = gauss = area = Lane{};
+  for (int k = 0; k < size; ++k) g[k] = Lane3{};
+
+  for (int q = 0; q < rule.npoints; ++q) {
+    const double weight = rule.weight[q];
+    const double *w = rule.row(q, 0);
+    const double *wu = w + LimitBasis::DU * size, *wv = w + LimitBasis::DV * size;
+    const double *wuu = w + LimitBasis::DUU * size, *wuv = w + LimitBasis::DUV * size;
+    const double *wvv = w + LimitBasis::DVV * size;
+
+    Lane3 r{}, ru{}, rv{}, ruu{}, ruv{}, rvv{};
+    for (int k = 0; k < size; ++k) {
+      const Lane3 p = x[k];
+      if (VOLUME) r += w[k] * p;
+      ru += wu[k] * p;
+      rv += wv[k] * p;
+      ruu += wuu[k] * p;
+      ruv += wuv[k] * p;
+      rvv += wvv[k] * p;
+    }
+
+    const Lane3 a = cross(ru, rv);
+    const Lane J = sqrt(dot(a, a)), inverse = 1.0 / J;
+    const Lane E = dot(ru, ru), F = dot(ru, rv), G = dot(rv, rv);
+    const Lane3 B = G * ruu - 2.0 * F * ruv + E * rvv;
+    const Lane curvature = -dot(B, a) * inverse * inverse * inverse;    // 2H
+    const Lane excess = curvature - c0;
+
+    area += weight * J;
+    bending += (0.5 * weight) * kc * excess * excess * J;
+
+    const Lane moment = weight * kc * excess * inverse;
+    const Lane e_s = -moment * inverse;
+    Lane e_W = moment * (0.25 * excess - 1.5 * curvature) + (0.5 * weight) * tension * inverse;
+
+    const Lane3 gB = e_s * a;
+    const Lane gE = dot(rvv, gB), gF = -2.0 * dot(ruv, gB), gG = dot(ruu, gB);
+    Lane3 guu = G * gB, guv = -2.0 * F * gB, gvv = E * gB;
+    Lane3 ga = e_s * B;
+
+    if (GAUSS) {
+      const Lane L = dot(ruu, a), M = dot(ruv, a), N = dot(rvv, a);
+      const Lane factor = weight * kg * inverse * inverse * inverse;
+      const Lane density = factor * (L * N - M * M);
+      gauss += density;
+      guu += factor * N * a;
+      guv += -2.0 * factor * M * a;
+      gvv += factor * L * a;
+      ga += factor * (N * ruu - 2.0 * M * ruv + L * rvv);
+      e_W += -1.5 * density * inverse * inverse;
+    }
+
+    ga += 2.0 * e_W * a;
+    Lane3 gr;
+    if (VOLUME) {
+      const Lane third = (weight / 3.0) * pressure;
+      ga += third * (r - origin);
+      gr = third * a;
+    }
+    const Lane3 gu = cross(rv, ga) + 2.0 * gE * ru + gF * rv;
+    const Lane3 gv = cross(ga, ru) + 2.0 * gG * rv + gF * ru;
+
+    for (int k = 0; k < size; ++k) {
+      Lane3 sum = g[k];
+      if (VOLUME) sum += w[k] * gr;
+      sum += wu[k] * gu;
+      sum += wv[k] * gv;
+      sum += wuu[k] * guu;
+      sum += wuv[k] * guv;
+      sum += wvv[k] * gvv;
+      g[k] = sum;
+    }
+  }
+}
+
+// choose the instance once per group, not in the loop
+template <int SIZE> auto choose_force_block(const HelfrichTerms &terms)
+{
+  if (terms.gauss)
+    return terms.volume ? force_block<SIZE, true, true> : force_block<SIZE, true, false>;
+  return terms.volume ? force_block<SIZE, false, true> : force_block<SIZE, false, false>;
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
+                                 const FaceModel &model, FaceIntegrals &out)
+{
+  const PatchRule &rule = *group.rule;
+  const bool volume = !out.volume.empty(), regular = rule.size == REGULAR;
+  auto integrate = regular
+      ? (volume ? integrate_block<REGULAR, true> : integrate_block<REGULAR, false>)
+      : (volume ? integrate_block<0, true> : integrate_block<0, false>);
+
+  Lane3 p[MOST_POINTS], vector_area;
+  Lane area, enclosed;
+  for (int block = 0; block < group.nblocks(); ++block) {
+    const int slot = group.first_slot + block * LANES;
+    gather(&group.points[(size_t) block * rule.size * LANES], rule.size, x, p);
+    integrate(rule, p, volume ? load3(model.origin, slot) : Lane3{}, area, enclosed, vector_area);
+    if (!out.area.empty()) store(out.area, slot, area);
+    if (!volume) continue;
+    store(out.volume, slot, enclosed);
+    for (int l = 0; l < LANES; ++l) {
+      out.vector_area[3 * (slot + l)] = vector_area.x[l];
+      out.vector_area[3 * (slot + l) + 1] = vector_area.y[l];
+      out.vector_area[3 * (slot + l) + 2] = vector_area.z[l];
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
+                              const HelfrichTerms &terms, double (*f)[3], FaceEnergies &out)
+{
+  const PatchRule &rule = *group.rule;
+  auto evaluate = rule.size == REGULAR ? choose_force_block<REGULAR>(terms)
+                                       : choose_force_block<0>(terms);
+
+  Lane3 p[MOST_POINTS], g[MOST_POINTS];
+  Lane bending, gauss, area;
+  for (int block = 0; block < group.nblocks(); ++block) {
+    const int slot = group.first_slot + block * LANES;
+    const int *points = &group.points[(size_t) block * rule.size * LANES];
+    gather(points, rule.size, x, p);
+    evaluate(rule, p, model, slot, g, bending, gauss, area);
+
+    if (!out.bending.empty()) store(out.bending, slot, bending);
+    if (!out.gauss.empty()) store(out.gauss, slot, gauss);
+    if (!out.area.empty()) store(out.area, slot, area);
+    if (!out.virial.empty()) {
+      const Lane3 origin = terms.volume ? load3(model.origin, slot) : p[0];
+      Lane v[6] = {};
+      for (int k = 0; k < rule.size; ++k) {
+        const Lane3 d = p[k] - origin;
+        v[0] -= d.x * g[k].x;
+        v[1] -= d.y * g[k].y;
+        v[2] -= d.z * g[k].z;
+        v[3] -= d.x * g[k].y;
+        v[4] -= d.x * g[k].z;
+        v[5] -= d.y * g[k].z;
+      }
+      for (int l = 0; l < LANES; ++l)
+        for (int i = 0; i < 6; ++i) out.virial[6 * (slot + l) + i] = v[i][l];
+    }
+
+    const int faces = std::min(LANES, group.nfaces - block * LANES);
+    for (int k = 0; k < rule.size; ++k)
+      for (int l = 0; l < faces; ++l) {
+        double *force = f[points[k * LANES + l]];
+        force[0] -= g[k].x[l];
+        force[1] -= g[k].y[l];
+        force[2] -= g[k].z[l];
+      }
+  }
+}

@@ -1,0 +1,90 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_HELFRICH_H
+#define LMP_MEMBRANE_HELFRICH_H
+
+#include "membrane_quadrature.h"
+#include "membrane_topology.h"
+
+#include <vector>
+
+namespace Membrane_NS {
+
+/// Faces are evaluated LANES at a time, one to a lane of the vector unit.
+constexpr int LANES = 8;
+
+/** Faces that share a quadrature rule, in blocks of LANES. A face of the group has a slot; slots
+    of all groups of a mesh are numbered through, so one array per property serves them all. The
+    last block of a group is filled up with copies of its last face, which are not counted. */
+struct FaceGroup {
+  const PatchRule *rule = nullptr;
+  int first_slot = 0;
+  int nfaces = 0;
+  std::vector<int> face;      ///< [nfaces] index in the topology
+  std::vector<int> points;    ///< [nblocks][rule->size][LANES] control point indices
+  int nblocks() const { return (nfaces + LANES - 1) / LANES; }
+  int nslots() const { return nblocks() * LANES; }
+  /// The k-th control point of the i-th face of the group.
+  int &point(int i, int k) { return points[(i / LANES * rule->size + k) * LANES + i % LANES]; }
+  int point(int i, int k) const { return const_cast<FaceGroup *>(this)->point(i, k); }
+};
+
+/// Sort faces into groups; `points` holds vertex indices. Groups keep pointers into `rules`.
+std::vector<FaceGroup> group_faces(const Topology &topology, PatchRules &rules,
+                                   const std::vector<int> &faces);
+/// The number of slots of all groups.
+int count_slots(const std::vector<FaceGroup> &groups);
+
+/** What each face is made of, by slot: the energy of a face is
+    integral kc/2 (2H - c0)^2 + kg K + tension dA, and pressure is dE/dV of its membrane.
+    2H = +2/R on a sphere with outward normals. Any consistent units. */
+struct FaceModel {
+  std::vector<double> kc, c0, kg, tension, pressure;
+  std::vector<double> origin;    ///< [slots][3] the point volumes are measured from, in the
+                                 ///< periodic image that the face is in
+  void resize(int nslots);
+};
+
+/// Terms a scene has; what is left out costs nothing.
+struct HelfrichTerms {
+  bool gauss = false;     ///< some kg is not zero
+  bool volume = false;    ///< some pressure is not zero
+};
+
+/// Integrals over each face, by slot. Empty arrays are not computed.
+struct FaceIntegrals {
+  std::vector<double> area;           ///< [slots] dA
+  std::vector<double> volume;         ///< [slots] (1/3) (r - origin).n dA
+  std::vector<double> vector_area;    ///< [slots][3] n dA
+};
+
+/// Energies and virials of each face, by slot. Empty arrays are not computed.
+struct FaceEnergies {
+  std::vector<double> bending, gauss, area;    ///< [slots]
+  std::vector<double> virial;    ///< [slots][6] xx yy zz xy xz yz of sum r f, r from the origin if
+                                 ///< the scene has a volume term, else from the first corner
+};
+
+/// First pass, needed when a term depends on a total area or volume. x is [points][3].
+void face_integrals(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
+                    FaceIntegrals &out);
+
+/** Second pass: adds minus the gradient of the energy to f, [points][3]. The gradient of the
+    volume is taken at fixed origin. */
+void face_forces(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
+                 const HelfrichTerms &terms, double (*f)[3], FaceEnergies &out);
+
+}    // namespace Membrane_NS
+
+#endif

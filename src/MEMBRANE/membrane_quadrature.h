@@ -1,0 +1,82 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_QUADRATURE_H
+#define LMP_MEMBRANE_QUADRATURE_H
+
+#include "membrane_limit_basis.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Membrane_NS {
+
+/** How finely integrals over the limit surface are taken.
+
+    ONE, THREE, SIX, TWELVE: that many Gauss points on a regular face, exact for polynomials of
+    degree 1, 2, 4, 6. CAREFUL: as many as 1e-7 of the energy of a well-shaped mesh needs. */
+enum class Quadrature { ONE, THREE, SIX, TWELVE, CAREFUL };
+
+/// From "1", "3", "6", "12", "careful"; false if it is none of these.
+bool parse_quadrature(const std::string &word, Quadrature &quadrature);
+
+/// Points (u, v) and weights on the triangle 0 <= u, v, u+v <= 1; the weights sum to 1/2.
+struct TriangleRule {
+  std::vector<double> u, v, weight;
+  int size() const { return static_cast<int>(weight.size()); }
+};
+TriangleRule triangle_rule(Quadrature quadrature);
+
+/** The quadrature of a face with given valences, as data: for each point its weight and the rows
+    of LimitBasis::Row. Derivatives are with respect to parameters chosen for each point such that
+    they stay of the order of an edge; an integral is sum_points weight f(r, r_u, ...) for any f
+    that is a density in the parameters, like |r_u x r_v|. */
+struct PatchRule {
+  int size = 0;      ///< control points of the face
+  int npoints = 0;
+  std::vector<double> weight;    ///< [npoints]
+  std::vector<double> rows;      ///< [npoints][LimitBasis::ROWS][size]
+  const double *row(int point, int which) const
+  {
+    return rows.data() + (static_cast<size_t>(point) * LimitBasis::ROWS + which) * size;
+  }
+};
+
+/** Builds patch rules on demand and keeps them; references stay valid.
+
+    Around an extraordinary corner the rule is graded and self-similar: the face is cut in four, the
+    part at the corner again, and so on, each regular part getting the triangle rule. The last,
+    the tip, is integrated too: a rule that leaves it out lets a minimiser hide energy there. The
+    number of levels follows from how fast the energy of a level decays at that valence, so that
+    the tip holds 1e-4 of the patch's energy (CAREFUL: 1e-11). */
+class PatchRules {
+ public:
+  explicit PatchRules(Quadrature quadrature);
+  const PatchRule &get(const Valences &valences);
+  Quadrature quadrature() const { return quadrature_; }
+  double memory_usage() const;
+
+ private:
+  Quadrature quadrature_;
+  TriangleRule triangle_;
+  std::map<Valences, PatchRule> rules_;
+  std::map<int, PatchRule> tips_;    // by valence: the patch (n, 6, 6)
+
+  PatchRule build(const Valences &valences);
+  const PatchRule &graded(int n);
+};
+
+}    // namespace Membrane_NS
+
+#endif

@@ -1,0 +1,735 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "pair_helfrich.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Membrane_NS::Face;
+using Membrane_NS::FaceGroup;
+using Membrane_NS::PatchRules;
+using Membrane_NS::Quadrature;
+
+enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, NEXTRA };
+
+/* ---------------------------------------------------------------------- */
+
+PairHelfrich::PairHelfrich(LAMMPS *lmp) :
+    Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
+    volumes(false), area_local(false), gauss(false), report(false), restored(false),
+    epoch(-1)
+{
+  single_enable = 0;
+  restartinfo = 1;
+  one_coeff = 0;
+  no_virial_fdotr_compute = 1;
+  centroidstressflag = CENTROID_NOTAVAIL;
+  comm_reverse = comm_reverse_off = 10;
+  nextra = NEXTRA;
+  pvector = new double[NEXTRA]();
+}
+
+PairHelfrich::~PairHelfrich()
+{
+  if (copymode) return;
+  delete[] pvector;
+  if (!allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHelfrich::settings(int narg, char **arg)
+{
+  quadrature = Quadrature::SIX;
+  for (int iarg = 0; iarg < narg; iarg += 2) {
+    if (strcmp(arg[iarg], "quadrature") != 0)
+      error->all(FLERR, "Unknown pair_style helfrich keyword {}; the only one is: quadrature",
+                 arg[iarg]);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_style helfrich quadrature", error);
+    if (!Membrane_NS::parse_quadrature(arg[iarg + 1], quadrature))
+      error->all(FLERR, "pair_style helfrich quadrature {} is not one of 1, 3, 6, 12, careful",
+                 arg[iarg + 1]);
+  }
+  if (quadrature == Quadrature::ONE && comm->me == 0)
+    error->warning(FLERR,
+                   "pair_style helfrich quadrature 1 has zero-energy wrinkles and is second-order "
+                   "only; results are not to be trusted without comparison to quadrature 6");
+  rules = std::make_unique<PatchRules>(quadrature);
+  epoch = -1;
+}
+
+/* ----------------------------------------------------------------------
+   types without coefficients may exist, as those of solvent: they must have no control points,
+   which init_style() checks
+------------------------------------------------------------------------- */
+
+void PairHelfrich::allocate()
+{
+  allocated = 1;
+  const int n = atom->ntypes + 1;
+  memory->create(setflag, n, n, "pair:setflag");
+  memory->create(cutsq, n, n, "pair:cutsq");
+  for (int i = 1; i < n; ++i)
+    for (int j = 1; j < n; ++j) setflag[i][j] = i == j;
+  coefficients.assign(n, Coefficients());
+}
+
+void PairHelfrich::coeff(int narg, char **arg)
+{
+  if (!allocated) allocate();
+  if (narg < 4) utils::missing_cmd_args(FLERR, "pair_coeff for pair_style helfrich", error);
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+
+  Coefficients c;
+  c.set = true;
+  c.fresh = !restored;
+  c.kc = utils::numeric(FLERR, arg[2], false, lmp);
+  c.c0 = utils::numeric(FLERR, arg[3], false, lmp);
+  if (c.kc < 0.0) error->all(FLERR, "pair_coeff helfrich bending modulus {} is negative", arg[2]);
+
+  auto value = [&](int iarg, int offset) {
+    if (iarg + offset >= narg)
+      utils::missing_cmd_args(FLERR, std::string("pair_coeff helfrich ") + arg[iarg], error);
+    return arg[iarg + offset];
+  };
+  auto modulus = [&](int iarg) {
+    const double k = utils::numeric(FLERR, value(iarg, 1), false, lmp);
+    if (k < 0.0)
+      error->all(FLERR, "pair_coeff helfrich {} modulus {} is negative", arg[iarg], arg[iarg + 1]);
+    return k;
+  };
+  auto reference = [&](int iarg, double &target, bool &init) {
+    init = strcmp(value(iarg, 2), "init") == 0;
+    if (init) return;
+    target = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+    if (target <= 0.0)
+      error->all(FLERR, "pair_coeff helfrich reference {} {} must be positive or init", arg[iarg],
+                 arg[iarg + 2]);
+  };
+
+  int iarg = 4;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    if (key == "kg") {
+      c.kg = utils::numeric(FLERR, value(iarg, 1), false, lmp);
+      iarg += 2;
+    } else if (key == "tension") {
+      c.tension = utils::numeric(FLERR, value(iarg, 1), false, lmp);
+      iarg += 2;
+    } else if (key == "area") {
+      c.area_modulus = modulus(iarg);
+      reference(iarg, c.area, c.area_init);
+      iarg += 3;
+    } else if (key == "area/local") {
+      c.local_area_modulus = modulus(iarg);
+      iarg += 2;
+    } else if (key == "volume") {
+      c.volume_modulus = modulus(iarg);
+      reference(iarg, c.volume, c.volume_init);
+      iarg += 3;
+    } else if (key == "pressure") {
+      c.pressure = utils::numeric(FLERR, value(iarg, 1), false, lmp);
+      iarg += 2;
+    } else
+      error->all(FLERR,
+                 "Unknown pair_coeff helfrich keyword {}; known are: kg, tension, area, area/local, "
+                 "volume, pressure",
+                 key);
+  }
+
+  int count = 0;
+  for (int i = MAX(ilo, jlo); i <= MIN(ihi, jhi); ++i) {
+    coefficients[i] = c;
+    ++count;
+  }
+  if (count == 0)
+    error->all(FLERR,
+               "pair_coeff {} {}: pair helfrich has coefficients per control-point type, so give "
+               "the same type twice",
+               arg[0], arg[1]);
+}
+
+bool PairHelfrich::Coefficients::same_global_terms(const Coefficients &o) const
+{
+  return area_modulus == o.area_modulus && area == o.area && area_init == o.area_init &&
+      volume_modulus == o.volume_modulus && volume == o.volume && volume_init == o.volume_init &&
+      pressure == o.pressure && local_area_modulus == o.local_area_modulus;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHelfrich::init_style()
+{
+  // not from the start: Pair::init() would warn of angles that exclude neighbors, but there are no
+  // neighbor lists
+
+  manybody_flag = 1;
+
+  mesh = &DistributedMesh::of(lmp, "Pair style helfrich");
+  mesh->update();
+  epoch = -1;
+
+  // every control point has coefficients, every atom with coefficients is a control point
+
+  tagint bad[2] = {0, 0};
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const bool is_point = mesh->vertex(atom->tag[i]) >= 0;
+    if (is_point && !coefficients[atom->type[i]].set) bad[0] = MAX(bad[0], atom->tag[i]);
+    if (!is_point && coefficients[atom->type[i]].set) bad[1] = MAX(bad[1], atom->tag[i]);
+  }
+  tagint any[2];
+  MPI_Allreduce(bad, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (any[0])
+    error->all(FLERR, "Control point {} is of a type without coefficients: add a pair_coeff line",
+               any[0]);
+  if (any[1])
+    error->all(FLERR,
+               "Atom {} is of a type with pair helfrich coefficients but is in no face: give it a "
+               "type of its own or delete it",
+               any[1]);
+  if (mesh->topology().num_faces() == 0 && comm->me == 0)
+    error->warning(FLERR, "Pair style helfrich finds no membrane: use create_membrane or read_data");
+
+  choose_terms();
+}
+
+/* ----------------------------------------------------------------------
+   which terms this scene has; all ranks agree
+------------------------------------------------------------------------- */
+
+void PairHelfrich::choose_terms()
+{
+  const auto &topology = mesh->topology();
+  const int nmembranes = mesh->molecules().size();
+
+  // the types of each membrane's control points, from all ranks
+
+  std::vector<int> mine((size_t) nmembranes * (atom->ntypes + 1), 0), types(mine.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh->vertex(atom->tag[i]);
+    if (v < 0) continue;
+    const int m = mesh->membrane(topology.component(v));
+    mine[m * (atom->ntypes + 1) + atom->type[i]] = 1;
+  }
+  MPI_Allreduce(mine.data(), types.data(), mine.size(), MPI_INT, MPI_MAX, world);
+
+  membrane_terms.assign(nmembranes, nullptr);
+  membrane_volume.assign(nmembranes, 0);
+  first_pass = volumes = area_local = gauss = false;
+  for (int m = 0; m < nmembranes; ++m)
+    for (int t = 1; t <= atom->ntypes; ++t) {
+      if (!types[m * (atom->ntypes + 1) + t]) continue;
+      const Coefficients &c = coefficients[t];
+      const tagint molecule = mesh->molecules()[m];
+      if (!membrane_terms[m]) membrane_terms[m] = &c;
+      if (c.fresh) references.erase(molecule);
+      if (!membrane_terms[m]->same_global_terms(c))
+        error->all(FLERR,
+                   "Membrane {} has control points of types with different area, area/local, "
+                   "volume or pressure coefficients; these belong to a whole membrane: make them "
+                   "equal",
+                   molecule);
+      if (c.uses_volume() && !mesh->is_closed_membrane(m))
+        error->all(FLERR,
+                   "Membrane {} continues through the periodic box and encloses no volume: remove "
+                   "volume and pressure from pair_coeff {} {}",
+                   molecule, t, t);
+      if (c.uses_volume()) membrane_volume[m] = 1;
+      if (c.area_modulus != 0.0 || c.uses_volume() || c.local_area_modulus != 0.0)
+        first_pass = true;
+      volumes = volumes || c.uses_volume();
+      area_local = area_local || c.local_area_modulus != 0.0;
+      gauss = gauss || c.kg != 0.0;
+    }
+
+  components.assign(topology.num_components(), Totals());
+  for (int v = 0; v < topology.num_vertices(); ++v) {
+    const int c = topology.component(v);
+    for (int k = 0; k < 3; ++k)
+      components[c].centre[k] += mesh->unwrapped()[3 * (size_t) v + k] / topology.num_vertices(c);
+  }
+
+  for (auto &c : coefficients) c.fresh = false;
+  restored = false;
+
+  // total volumes cost a pass: only if somebody can read them
+
+  report = !modify->get_compute_by_style("^pair$").empty();
+  generation = mesh->generation();
+
+  membrane_faces.clear();
+  reference_area.clear();
+  if (area_local) {
+    membrane_faces.resize(nmembranes);
+    for (int f = 0; f < topology.num_faces(); ++f)
+      membrane_faces[mesh->membrane(topology.component(topology.face(f)[0]))].push_back(f);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   control points act through the mesh, not through neighbor lists: the cutoff only gives LAMMPS a
+   length to size its bins with, the ghost cutoff is set by DistributedMesh
+------------------------------------------------------------------------- */
+
+double PairHelfrich::init_one(int i, int j)
+{
+  return coefficients[i].set && coefficients[j].set ? mesh->longest_edge() : 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   after reneighbouring: faces of this rank and their coefficients, the mean of their corners'
+------------------------------------------------------------------------- */
+
+void PairHelfrich::localize()
+{
+  groups = mesh->local_groups(*rules);
+  epoch = mesh->epoch();
+  const int nslots = count_slots(groups);
+  model.resize(nslots);
+  base_tension.assign(nslots, 0.0);
+  local_modulus.assign(area_local ? nslots : 0, 0.0);
+
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nslots(); ++s) {
+      const int slot = group.first_slot + s;
+      for (int k = 0; k < 3; ++k) {
+        const Coefficients &c = coefficients[atom->type[group.point(s, k)]];
+        model.kc[slot] += c.kc / 3.0;
+        model.c0[slot] += c.c0 / 3.0;
+        model.kg[slot] += c.kg / 3.0;
+        base_tension[slot] += c.tension / 3.0;
+        if (area_local) local_modulus[slot] += c.local_area_modulus / 3.0;
+      }
+    }
+  model.tension = base_tension;
+}
+
+/* ---------------------------------------------------------------------- */
+
+static inline int component_of(const DistributedMesh *mesh, const FaceGroup &group, int s)
+{
+  const auto &topology = mesh->topology();
+  return topology.component(topology.face(group.face[std::min(s, group.nfaces - 1)])[0]);
+}
+
+/* ----------------------------------------------------------------------
+   the point volumes are measured from, moved to the periodic image each face is in
+------------------------------------------------------------------------- */
+
+void PairHelfrich::place_origins()
+{
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nslots(); ++s) {
+      const int face = group.face[std::min(s, group.nfaces - 1)];
+      const int owner = atom->map(mesh->tag(mesh->topology().face(face)[0]));
+      const Totals &total = components[component_of(mesh, group, s)];
+      double unwrapped[3];
+      domain->unmap(atom->x[owner], atom->image[owner], unwrapped);
+      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
+      for (int k = 0; k < 3; ++k)
+        origin[k] = total.centre[k] - (unwrapped[k] - atom->x[owner][k]);
+    }
+}
+
+/* ----------------------------------------------------------------------
+   first pass: areas, and volumes if wanted, of faces and membranes.
+
+   V = (1/3) sum weight (r - centre).n dA, with the centre of the component's control points: the
+   quadrature of n dA over a closed surface vanishes only to its own accuracy, and measuring from
+   the centre keeps V, and so total momentum, exactly independent of where the membrane is.
+------------------------------------------------------------------------- */
+
+void PairHelfrich::measure(bool with_volume)
+{
+  const int nslots = count_slots(groups);
+  integrals.area.resize(nslots);
+  integrals.volume.resize(with_volume ? nslots : 0);
+  integrals.vector_area.resize(with_volume ? 3 * (size_t) nslots : 0);
+
+  const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
+  if (with_volume) place_origins();
+  for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
+
+  constexpr int WIDTH = 8;
+  const int n = components.size();
+  std::vector<double> mine((size_t) n * WIDTH, 0.0), all(mine.size());
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nfaces; ++s) {
+      const int slot = group.first_slot + s;
+      double *sum = &mine[component_of(mesh, group, s) * WIDTH];
+      sum[0] += integrals.area[slot];
+      if (!with_volume) continue;
+      sum[1] += integrals.volume[slot];
+      for (int k = 0; k < 3; ++k) sum[2 + k] += integrals.vector_area[3 * (size_t) slot + k];
+    }
+  if (with_volume)
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const int v = mesh->vertex_of_atom(i);
+      if (v < 0) continue;
+      double unwrapped[3];
+      domain->unmap(atom->x[i], atom->image[i], unwrapped);
+      double *sum = &mine[mesh->topology().component(v) * WIDTH];
+      for (int k = 0; k < 3; ++k) sum[5 + k] += unwrapped[k];
+    }
+  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
+
+  membranes.assign(mesh->molecules().size(), Totals());
+  for (int c = 0; c < n; ++c) {
+    const double *sum = &all[c * WIDTH];
+    Totals &total = components[c];
+    Totals &membrane = membranes[mesh->membrane(c)];
+    total.area = sum[0];
+    membrane.area += total.area;
+    if (!with_volume) continue;
+    total.volume = sum[1];
+    for (int k = 0; k < 3; ++k) {
+      const double centre = sum[5 + k] / mesh->topology().num_vertices(c);
+      total.vector_area[k] = sum[2 + k];
+      total.volume -= (centre - total.centre[k]) * sum[2 + k] / 3.0;
+      total.centre[k] = centre;
+    }
+    if (mesh->is_closed(c)) membrane.volume += total.volume;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   reference areas and volumes: kept per molecule ID, through later runs and restarts
+------------------------------------------------------------------------- */
+
+void PairHelfrich::take_references()
+{
+  const auto &molecules = mesh->molecules();
+  bool missing = false;
+  for (size_t m = 0; m < molecules.size(); ++m) {
+    const Coefficients &c = *membrane_terms[m];
+    Reference &reference = references[molecules[m]];
+    if (c.area_modulus != 0.0) {
+      if (!c.area_init) reference.area = c.area;
+      if (reference.area == 0.0) reference.area = membranes[m].area;
+    }
+    if (c.volume_modulus != 0.0) {
+      if (!c.volume_init) reference.volume = c.volume;
+      if (reference.volume == 0.0) reference.volume = membranes[m].volume;
+      if (reference.volume <= 0.0)
+        error->all(FLERR,
+                   "Membrane {} encloses the volume {:.6g}: its faces are inside out; reverse the "
+                   "order of their corners",
+                   molecules[m], reference.volume);
+    }
+    if (c.local_area_modulus != 0.0 && reference.face_area.size() != membrane_faces[m].size())
+      missing = true;
+  }
+  if (!area_local || !reference_area.empty()) return;
+
+  const int nfaces = mesh->topology().num_faces();
+  reference_area.assign(nfaces, 0.0);
+  if (missing) {
+    std::vector<double> mine(nfaces, 0.0);
+    for (const FaceGroup &group : groups)
+      for (int s = 0; s < group.nfaces; ++s)
+        mine[group.face[s]] = integrals.area[group.first_slot + s];
+    MPI_Allreduce(mine.data(), reference_area.data(), nfaces, MPI_DOUBLE, MPI_SUM, world);
+  }
+  for (size_t m = 0; m < molecules.size(); ++m) {
+    auto &kept = references[molecules[m]].face_area;
+    const auto &faces = membrane_faces[m];
+    if (kept.size() != faces.size()) {
+      kept.resize(faces.size());
+      for (size_t i = 0; i < faces.size(); ++i) kept[i] = reference_area[faces[i]];
+    }
+    for (size_t i = 0; i < faces.size(); ++i) reference_area[faces[i]] = kept[i];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   area and volume terms act as a tension and a pressure:
+     d/dA [KA/2 (A-A0)^2/A0] = KA (A-A0)/A0,   d/dV [KV/2 (V-V0)^2/V0 - DP V] = KV (V-V0)/V0 - DP
+------------------------------------------------------------------------- */
+
+void PairHelfrich::apply_global_terms()
+{
+  const auto &molecules = mesh->molecules();
+  std::vector<double> tension(molecules.size(), 0.0), pressure(molecules.size(), 0.0);
+  for (size_t m = 0; m < molecules.size(); ++m) {
+    const Coefficients &c = *membrane_terms[m];
+    const Reference &reference = references[molecules[m]];
+    if (c.area_modulus != 0.0)
+      tension[m] = c.area_modulus * (membranes[m].area - reference.area) / reference.area;
+    if (c.volume_modulus != 0.0)
+      pressure[m] = c.volume_modulus * (membranes[m].volume - reference.volume) / reference.volume;
+    pressure[m] -= c.pressure;
+  }
+
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nslots(); ++s) {
+      const int slot = group.first_slot + s;
+      const int m = mesh->membrane(component_of(mesh, group, s));
+      model.tension[slot] = base_tension[slot] + tension[m];
+      model.pressure[slot] = pressure[m];
+      if (!area_local || local_modulus[slot] == 0.0) continue;
+      const double a0 = reference_area[group.face[std::min(s, group.nfaces - 1)]];
+      model.tension[slot] += local_modulus[slot] * (integrals.area[slot] - a0) / a0;
+    }
+}
+
+/* ----------------------------------------------------------------------
+   gradient of the volume through the centre it is measured from, see measure()
+------------------------------------------------------------------------- */
+
+void PairHelfrich::share_volume_recoil()
+{
+  const auto &topology = mesh->topology();
+  const auto &molecules = mesh->molecules();
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh->vertex_of_atom(i);
+    if (v < 0) continue;
+    const int c = topology.component(v), m = mesh->membrane(c);
+    if (!membrane_volume[m]) continue;
+    const Coefficients &terms = *membrane_terms[m];
+    double pressure = -terms.pressure;
+    if (terms.volume_modulus != 0.0) {
+      const double v0 = references[molecules[m]].volume;
+      pressure += terms.volume_modulus * (membranes[m].volume - v0) / v0;
+    }
+    const double share = pressure / (3.0 * topology.num_vertices(c));
+    for (int k = 0; k < 3; ++k) atom->f[i][k] += share * components[c].vector_area[k];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairHelfrich::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  mesh->refresh();
+  if (mesh->generation() != generation) choose_terms();
+  if (epoch != mesh->epoch()) localize();
+
+  const bool wants_volume = volumes || (eflag_global && report);
+  if (first_pass || wants_volume) {
+    measure(wants_volume);
+    take_references();
+  }
+  if (first_pass) apply_global_terms();
+  if (volumes) place_origins();
+
+  const int nslots = count_slots(groups);
+  for (auto *sum : {&energies.bending, &energies.gauss, &energies.area})
+    sum->resize(eflag_either ? nslots : 0);
+  energies.virial.resize(vflag_either ? 6 * (size_t) nslots : 0);
+
+  const int nall = atom->nlocal + atom->nghost;
+  if (!force->newton)
+    for (int i = atom->nlocal; i < nall; ++i) {
+      std::fill_n(atom->f[i], 3, 0.0);
+      if (eflag_atom) eatom[i] = 0.0;
+      if (vflag_atom) std::fill_n(vatom[i], 6, 0.0);
+    }
+
+  Membrane_NS::HelfrichTerms terms;
+  terms.gauss = gauss;
+  terms.volume = volumes;
+  const auto x = nall ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
+  const auto f = nall ? reinterpret_cast<double(*)[3]>(atom->f[0]) : nullptr;
+  for (const FaceGroup &group : groups) face_forces(group, x, model, terms, f, energies);
+  if (volumes) share_volume_recoil();
+
+  if (eflag_either || vflag_either) tally();
+  if (!force->newton) comm->reverse_comm(this);
+}
+
+/* ----------------------------------------------------------------------
+   a face's energy and virial are shared by its corners; energies of whole membranes are shared in
+   proportion to area
+------------------------------------------------------------------------- */
+
+void PairHelfrich::tally()
+{
+  std::fill_n(pvector, NEXTRA, 0.0);
+
+  // energy of each membrane's area and volume, per area
+
+  const auto &molecules = mesh->molecules();
+  std::vector<double> area_energy(molecules.size(), 0.0), volume_energy(molecules.size(), 0.0);
+  if (eflag_either && first_pass)
+    for (size_t m = 0; m < molecules.size(); ++m) {
+      const Coefficients &c = *membrane_terms[m];
+      const Reference &reference = references[molecules[m]];
+      if (c.area_modulus != 0.0) {
+        const double excess = membranes[m].area - reference.area;
+        area_energy[m] = 0.5 * c.area_modulus * excess * excess / reference.area;
+      }
+      if (c.volume_modulus != 0.0) {
+        const double excess = membranes[m].volume - reference.volume;
+        volume_energy[m] = 0.5 * c.volume_modulus * excess * excess / reference.volume;
+      }
+      volume_energy[m] -= c.pressure * membranes[m].volume;
+      area_energy[m] /= membranes[m].area;
+      volume_energy[m] /= membranes[m].area;
+    }
+
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nfaces; ++s) {
+      const int slot = group.first_slot + s;
+      if (eflag_either) {
+        const double area = energies.area[slot];
+        const int m = mesh->membrane(component_of(mesh, group, s));
+        double part[4] = {energies.bending[slot], energies.gauss[slot],
+                          (base_tension[slot] + area_energy[m]) * area, volume_energy[m] * area};
+        if (area_local && local_modulus[slot] != 0.0) {
+          const double a0 = reference_area[group.face[s]], excess = area - a0;
+          part[AREA] += 0.5 * local_modulus[slot] * excess * excess / a0;
+        }
+        const double sum = part[0] + part[1] + part[2] + part[3];
+        for (int k = 0; k < 4; ++k) pvector[k] += part[k];
+        pvector[TOTAL_AREA] += area;
+        if (eflag_global) eng_vdwl += sum;
+        if (eflag_atom)
+          for (int k = 0; k < 3; ++k) eatom[group.point(s, k)] += sum / 3.0;
+      }
+      if (vflag_either) {
+        const double *v = &energies.virial[6 * (size_t) slot];
+        if (vflag_global)
+          for (int i = 0; i < 6; ++i) virial[i] += v[i];
+        if (vflag_atom)
+          for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 6; ++i) vatom[group.point(s, k)][i] += v[i] / 3.0;
+      }
+    }
+
+  if (eflag_either && (volumes || report) && comm->me == 0)
+    for (const Totals &membrane : membranes) pvector[TOTAL_VOLUME] += membrane.volume;
+}
+
+/* ----------------------------------------------------------------------
+   with newton off LAMMPS returns nothing from ghosts: forces and per-atom tallies go back here
+------------------------------------------------------------------------- */
+
+int PairHelfrich::pack_reverse_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; ++i) {
+    for (int k = 0; k < 3; ++k) buf[m++] = atom->f[i][k];
+    buf[m++] = eflag_atom ? eatom[i] : 0.0;
+    for (int k = 0; k < 6; ++k) buf[m++] = vflag_atom ? vatom[i][k] : 0.0;
+  }
+  return m;
+}
+
+void PairHelfrich::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  int m = 0;
+  for (int j = 0; j < n; ++j) {
+    const int i = list[j];
+    for (int k = 0; k < 3; ++k) atom->f[i][k] += buf[m++];
+    if (eflag_atom) eatom[i] += buf[m];
+    ++m;
+    for (int k = 0; k < 6; ++k, ++m)
+      if (vflag_atom) vatom[i][k] += buf[m];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   restart: settings hold what "init" took as well, since pair_style hybrid writes only those
+------------------------------------------------------------------------- */
+
+void PairHelfrich::write_restart_settings(FILE *fp)
+{
+  const int which = static_cast<int>(quadrature);
+  const bigint n = references.size();
+  fwrite(&which, sizeof(int), 1, fp);
+  fwrite(&n, sizeof(bigint), 1, fp);
+  for (const auto &[molecule, reference] : references) {
+    const bigint faces = reference.face_area.size();
+    fwrite(&molecule, sizeof(tagint), 1, fp);
+    fwrite(&reference.area, sizeof(double), 1, fp);
+    fwrite(&reference.volume, sizeof(double), 1, fp);
+    fwrite(&faces, sizeof(bigint), 1, fp);
+    fwrite(reference.face_area.data(), sizeof(double), faces, fp);
+  }
+}
+
+void PairHelfrich::read_all(FILE *fp, void *data, size_t size, size_t n)
+{
+  if (comm->me == 0) utils::sfread(FLERR, data, size, n, fp, nullptr, error);
+  MPI_Bcast(data, size * n, MPI_BYTE, 0, world);
+}
+
+void PairHelfrich::read_restart_settings(FILE *fp)
+{
+  int which;
+  bigint n, faces;
+  read_all(fp, &which, sizeof(int), 1);
+  quadrature = static_cast<Quadrature>(which);
+  rules = std::make_unique<PatchRules>(quadrature);
+
+  references.clear();
+  read_all(fp, &n, sizeof(bigint), 1);
+  for (bigint i = 0; i < n; ++i) {
+    tagint molecule;
+    read_all(fp, &molecule, sizeof(tagint), 1);
+    Reference &reference = references[molecule];
+    read_all(fp, &reference.area, sizeof(double), 1);
+    read_all(fp, &reference.volume, sizeof(double), 1);
+    read_all(fp, &faces, sizeof(bigint), 1);
+    reference.face_area.resize(faces);
+    read_all(fp, reference.face_area.data(), sizeof(double), faces);
+  }
+  restored = true;
+}
+
+void PairHelfrich::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  fwrite(coefficients.data(), sizeof(Coefficients), coefficients.size(), fp);
+}
+
+void PairHelfrich::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  allocate();
+  read_all(fp, coefficients.data(), sizeof(Coefficients), coefficients.size());
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairHelfrich::memory_usage()
+{
+  double bytes = Pair::memory_usage();
+  for (const FaceGroup &group : groups)
+    bytes += sizeof(int) * (group.points.capacity() + group.face.capacity());
+  bytes += sizeof(double) * 13.0 * count_slots(groups);
+  if (rules) bytes += rules->memory_usage();
+  return bytes;
+}

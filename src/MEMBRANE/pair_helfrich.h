@@ -1,0 +1,122 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef PAIR_CLASS
+// clang-format off
+PairStyle(helfrich,PairHelfrich);
+// clang-format on
+#else
+
+#ifndef LMP_PAIR_HELFRICH_H
+#define LMP_PAIR_HELFRICH_H
+
+#include "membrane_helfrich.h"
+#include "pair.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Helfrich energy of the limit surface, with coefficients per control-point type.
+class PairHelfrich : public Pair {
+ public:
+  PairHelfrich(class LAMMPS *);
+  ~PairHelfrich() override;
+
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
+
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  double memory_usage() override;
+
+ private:
+  // what one pair_coeff line says
+
+  struct Coefficients {
+    bool set = false;
+    bool fresh = false;    // since the last run: "init" is to be taken anew
+    double kc = 0.0, c0 = 0.0, kg = 0.0;
+    double tension = 0.0;                     // S: energy S A
+    double area_modulus = 0.0, area = 0.0;    // KA/2 (A-A0)^2/A0 per membrane
+    double local_area_modulus = 0.0;          // KA/2 sum (a-a0)^2/a0 over faces
+    double volume_modulus = 0.0, volume = 0.0;
+    double pressure = 0.0;    // DP: energy -DP V
+    bool area_init = false, volume_init = false;
+
+    bool same_global_terms(const Coefficients &) const;
+    bool uses_volume() const { return volume_modulus != 0.0 || pressure != 0.0; }
+  };
+
+  // sums over a connected component of the mesh, or what they give for a membrane
+
+  struct Totals {
+    double area = 0.0, volume = 0.0;
+    double vector_area[3] = {0.0, 0.0, 0.0}, centre[3] = {0.0, 0.0, 0.0};
+  };
+
+  // areas and volume a membrane is compared with, taken at the first step for "init"
+
+  struct Reference {
+    double area = 0.0, volume = 0.0;
+    std::vector<double> face_area;    // in the order of the mesh; empty without area/local
+  };
+
+  Membrane_NS::Quadrature quadrature;
+  std::unique_ptr<Membrane_NS::PatchRules> rules;
+  std::vector<Coefficients> coefficients;    // by type, from 1
+  std::map<tagint, Reference> references;    // by molecule ID
+
+  class DistributedMesh *mesh;
+  int generation;                                      // topology that what follows is for
+  std::vector<const Coefficients *> membrane_terms;    // whose global terms a membrane has
+  std::vector<char> membrane_volume;                   // whether its volume is wanted
+  std::vector<std::vector<int>> membrane_faces;        // for area/local only
+  std::vector<double> reference_area;                  // by face, for area/local only
+  bool first_pass, volumes, area_local, gauss, report;
+  bool restored;    // references come from a restart file and outlive the next pair_coeff
+
+  bigint epoch;    // reneighbouring that what follows is for
+  std::vector<Membrane_NS::FaceGroup> groups;
+  Membrane_NS::FaceModel model;
+  Membrane_NS::FaceIntegrals integrals;
+  Membrane_NS::FaceEnergies energies;
+  std::vector<double> base_tension, local_modulus;    // by slot
+  std::vector<Totals> components, membranes;
+
+  void allocate();
+  void choose_terms();
+  void localize();
+  void measure(bool);
+  void take_references();
+  void apply_global_terms();
+  void place_origins();
+  void share_volume_recoil();
+  void tally();
+  void read_all(FILE *, void *, size_t, size_t);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

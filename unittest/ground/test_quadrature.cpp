@@ -1,0 +1,307 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#include "membrane_quadrature.h"
+
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+using namespace Membrane_TEST;
+using Eigen::RowVectorXd;
+using Planar = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+using Weights = LimitBasis::Weights;
+
+namespace {
+
+// integral of u^a v^b over the triangle
+double monomial(int a, int b)
+{
+  return std::tgamma(a + 1.0) * std::tgamma(b + 1.0) / std::tgamma(a + b + 3.0);
+}
+
+// faces with one, two and three extraordinary corners, every valence from 3 to 16 among them
+std::vector<Valences> triples()
+{
+  std::vector<Valences> list = {{6, 6, 6}, {3, 3, 3}, {5, 5, 5}, {3, 12, 7}, {6, 4, 16}, {9, 6, 5}};
+  for (int n = 3; n <= 16; ++n) {
+    list.push_back({n, 6, 6});
+    list.push_back({n, 4, 4});
+  }
+  return list;
+}
+
+Planar random_points(int count, unsigned seed)
+{
+  Random random(seed);
+  Planar points(count, 2);
+  for (int i = 0; i < count; ++i) points.row(i) << random.symmetric(), random.symmetric();
+  return points;
+}
+
+// area and first moment in x of the limit of a flat patch, over its parameters
+struct Flat {
+  double area = 0.0, moment = 0.0;
+};
+
+Flat by_rule(const PatchRule &rule, const Planar &points)
+{
+  Flat sum;
+  for (int q = 0; q < rule.npoints; ++q) {
+    const Eigen::Map<const Weights> w(rule.row(q, 0), LimitBasis::ROWS, rule.size);
+    const Eigen::Matrix<double, LimitBasis::ROWS, 2> r = w * points;
+    const double density = r(LimitBasis::DU, 0) * r(LimitBasis::DV, 1) -
+        r(LimitBasis::DU, 1) * r(LimitBasis::DV, 0);
+    sum.area += rule.weight[q] * density;
+    sum.moment += rule.weight[q] * density * r(LimitBasis::VALUE, 0);
+  }
+  return sum;
+}
+
+// The same as integrals along the border, x dy and x^2/2 dy. An edge is a quartic between
+// neighbouring points 2^-k from its ends, where six Gauss points are exact for both.
+Flat by_border(const Valences &valences, const Planar &points)
+{
+  const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+  const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+  const int depth = 29;
+  const LimitBasis basis(valences);
+  Flat sum;
+  for (int k = 0; k < 3; ++k) {
+    auto at = [&](double s) -> Eigen::Matrix<double, 2, 2> {    // position; derivative in s
+      double t[3] = {0.0, 0.0, 0.0};
+      t[k] = 1.0 - s;
+      t[(k + 1) % 3] = s;
+      const Weights w = basis.evaluate(t[1], t[2]);
+      const double du = (k == 0) - (k == 1), dv = (k == 1) - (k == 2);
+      Eigen::Matrix<double, 2, 2> r;
+      r.row(0) = w.row(LimitBasis::VALUE) * points;
+      r.row(1) = (du * w.row(LimitBasis::DU) + dv * w.row(LimitBasis::DV)) * points;
+      return r;
+    };
+    auto piece = [&](double a, double b) {
+      for (int i = 0; i < 3; ++i)
+        for (double side : {-1.0, 1.0}) {
+          const auto r = at(0.5 * (a + b) + 0.5 * (b - a) * side * node[i]);
+          const double dy = 0.5 * (b - a) * weight[i] * r(1, 1);
+          sum.area += r(0, 0) * dy;
+          sum.moment += 0.5 * r(0, 0) * r(0, 0) * dy;
+        }
+    };
+    auto chord = [&](double a, double b) {    // what is left at the corner
+      const auto from = at(a), to = at(b);
+      const double x = 0.5 * (from(0, 0) + to(0, 0)), dy = to(0, 1) - from(0, 1);
+      sum.area += x * dy;
+      sum.moment += 0.5 * x * x * dy;
+    };
+    for (int level = 1; level < depth; ++level) {
+      piece(std::ldexp(0.5, -level), std::ldexp(1.0, -level));
+      piece(1.0 - std::ldexp(1.0, -level), 1.0 - std::ldexp(0.5, -level));
+    }
+    chord(0.0, std::ldexp(1.0, -depth));
+    chord(1.0 - std::ldexp(1.0, -depth), 1.0);
+  }
+  return sum;
+}
+
+}    // namespace
+
+// === On the triangle
+
+TEST(TriangleRule, WeightsArePositiveAndSumToTheTriangle)
+{
+  for (Quadrature quadrature : ALL_QUADRATURES) {
+    const TriangleRule rule = triangle_rule(quadrature);
+    double sum = 0.0;
+    for (int q = 0; q < rule.size(); ++q) {
+      EXPECT_GT(rule.weight[q], 0.0);
+      EXPECT_GT(std::min({rule.u[q], rule.v[q], 1.0 - rule.u[q] - rule.v[q]}), 0.0);
+      sum += rule.weight[q];
+    }
+    EXPECT_NEAR(sum, 0.5, 1e-14) << name(quadrature);
+  }
+}
+
+TEST(TriangleRule, IsExactToItsDegreeAndNoFurther)
+{
+  const std::map<Quadrature, int> degrees = {{Quadrature::ONE, 1},
+                                             {Quadrature::THREE, 2},
+                                             {Quadrature::SIX, 4},
+                                             {Quadrature::TWELVE, 6},
+                                             {Quadrature::CAREFUL, 18}};
+  for (const auto &[quadrature, degree] : degrees) {
+    const TriangleRule rule = triangle_rule(quadrature);
+    double beyond = 0.0;
+    for (int a = 0; a <= degree + 2; ++a)
+      for (int b = 0; a + b <= degree + 2; ++b) {
+        double sum = 0.0;
+        for (int q = 0; q < rule.size(); ++q)
+          sum += rule.weight[q] * std::pow(rule.u[q], a) * std::pow(rule.v[q], b);
+        const double error = std::fabs(sum - monomial(a, b));
+        if (a + b <= degree)
+          EXPECT_LT(error, 1e-14) << name(quadrature) << " u^" << a << " v^" << b;
+        else
+          beyond = std::max(beyond, error / monomial(a, b));
+      }
+    EXPECT_GT(beyond, 1e-12) << name(quadrature);
+  }
+}
+
+TEST(TriangleRule, HasTheNumberOfPointsInItsName)
+{
+  EXPECT_EQ(triangle_rule(Quadrature::ONE).size(), 1);
+  EXPECT_EQ(triangle_rule(Quadrature::THREE).size(), 3);
+  EXPECT_EQ(triangle_rule(Quadrature::SIX).size(), 6);
+  EXPECT_EQ(triangle_rule(Quadrature::TWELVE).size(), 12);
+}
+
+TEST(TriangleRule, IsChosenByTheWordsOfThePairStyle)
+{
+  const std::map<std::string, Quadrature> words = {{"1", Quadrature::ONE},
+                                                   {"3", Quadrature::THREE},
+                                                   {"6", Quadrature::SIX},
+                                                   {"12", Quadrature::TWELVE},
+                                                   {"careful", Quadrature::CAREFUL}};
+  for (const auto &[word, expected] : words) {
+    Quadrature quadrature = expected == Quadrature::ONE ? Quadrature::SIX : Quadrature::ONE;
+    EXPECT_TRUE(parse_quadrature(word, quadrature));
+    EXPECT_EQ(quadrature, expected);
+  }
+  for (const std::string word : {"", "2", "six", "06", "1.0", "Careful"}) {
+    Quadrature quadrature = Quadrature::TWELVE;
+    EXPECT_FALSE(parse_quadrature(word, quadrature)) << word;
+    EXPECT_EQ(quadrature, Quadrature::TWELVE);
+  }
+}
+
+// === On faces
+
+TEST(PatchRules, CarryTheBasisOfARegularFaceAtThePointsOfTheTriangle)
+{
+  for (Quadrature quadrature : ALL_QUADRATURES) {
+    const TriangleRule triangle = triangle_rule(quadrature);
+    const PatchRule &rule = shared_rules(quadrature).get({6, 6, 6});
+    ASSERT_EQ(rule.size, 12);
+    ASSERT_EQ(rule.npoints, triangle.size());
+    for (int q = 0; q < rule.npoints; ++q) {
+      EXPECT_EQ(rule.weight[q], triangle.weight[q]);
+      const Eigen::Map<const Weights> w(rule.row(q, 0), LimitBasis::ROWS, rule.size);
+      EXPECT_LT((w - box_spline(triangle.u[q], triangle.v[q])).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(PatchRules, ArePartitionsOfUnityWithDerivativesOfTheOrderOfAnEdge)
+{
+  for (Quadrature quadrature : {Quadrature::THREE, Quadrature::CAREFUL})
+    for (const Valences &n : {Valences{3, 6, 6}, {5, 5, 5}, {6, 7, 6}, {4, 16, 4}, {3, 3, 3}}) {
+      const PatchRule &rule = shared_rules(quadrature).get(n);
+      EXPECT_EQ(rule.size, LimitBasis(n).size());
+      double sum = 0.0, value = 0.0, derivative = 0.0, most = 0.0, least = 1.0;
+      for (int q = 0; q < rule.npoints; ++q) {
+        const Eigen::Map<const Weights> w(rule.row(q, 0), LimitBasis::ROWS, rule.size);
+        sum += rule.weight[q];
+        value = std::max(value, std::fabs(w.row(LimitBasis::VALUE).sum() - 1.0));
+        for (int row = LimitBasis::DU; row < LimitBasis::ROWS; ++row)
+          derivative = std::max(derivative, std::fabs(w.row(row).sum()) / w.row(row).norm());
+        const double size = w.middleRows(LimitBasis::DU, 2).norm();
+        most = std::max(most, size);
+        least = std::min(least, size);
+      }
+      EXPECT_LT(value, 1e-12);
+      EXPECT_LT(derivative, 1e-14);
+      EXPECT_GT(least, 0.005);
+      EXPECT_LT(most, 5.0);
+      EXPECT_GT(sum, 0.0);
+    }
+}
+
+TEST(PatchRules, CarefulIntegratesAFlatFaceExactlyForEveryValence)
+{
+  double worst = 0.0;
+  unsigned seed = 0;
+  for (const Valences &n : triples()) {
+    const Planar points = random_points(LimitBasis(n).size(), ++seed);
+    const Flat rule = by_rule(shared_rules(Quadrature::CAREFUL).get(n), points);
+    const Flat exact = by_border(n, points);
+    const double error = std::max(std::fabs(rule.area - exact.area),
+                                  std::fabs(rule.moment - exact.moment));
+    EXPECT_LT(error, 1e-11) << n[0] << " " << n[1] << " " << n[2];
+    worst = std::max(worst, error);
+  }
+  RecordProperty("worst_error", scientific(worst));
+}
+
+// the area density is of degree 6: only the tip is not exact
+TEST(PatchRules, TwelveIntegratesTheAreaOfAFlatFaceButForTheTip)
+{
+  double worst = 0.0;
+  unsigned seed = 100;
+  for (const Valences &n : triples()) {
+    const Planar points = random_points(LimitBasis(n).size(), ++seed);
+    const Flat rule = by_rule(shared_rules(Quadrature::TWELVE).get(n), points);
+    const double error = std::fabs(rule.area - by_border(n, points).area);
+    EXPECT_LT(error, LimitBasis(n).is_regular() ? 1e-14 : 1e-6) << n[0] << " " << n[1] << " " << n[2];
+    worst = std::max(worst, error);
+  }
+  RecordProperty("worst_error", scientific(worst));
+}
+
+TEST(PatchRules, MorePointsAreMoreAccurate)
+{
+  // over many random flat faces, with spread corners
+  double previous = 1.0;
+  for (Quadrature quadrature : ALL_QUADRATURES) {
+    double sum = 0.0;
+    unsigned seed = 200;
+    for (const Valences &n : triples()) {
+      const Planar points = random_points(LimitBasis(n).size(), ++seed);
+      const double error = by_rule(shared_rules(quadrature).get(n), points).moment -
+          by_border(n, points).moment;
+      sum += error * error;
+    }
+    const double error = std::sqrt(sum / triples().size());
+    RecordProperty(name(quadrature), scientific(error));
+    EXPECT_LT(error, 0.5 * previous) << name(quadrature);
+    previous = error;
+  }
+}
+
+TEST(PatchRules, CountOfPointsFollowsFromTheValence)
+{
+  // parts of a face with one extraordinary corner: 3, then 3 a level, then the tip
+  const std::map<int, int> parts = {{3, 22}, {5, 19}, {8, 46}, {16, 148}};
+  for (const auto &[n, count] : parts)
+    for (Quadrature quadrature :
+         {Quadrature::ONE, Quadrature::THREE, Quadrature::SIX, Quadrature::TWELVE})
+      EXPECT_EQ(shared_rules(quadrature).get({n, 6, 6}).npoints,
+                count * triangle_rule(quadrature).size())
+          << "valence " << n;
+
+  const PatchRules fresh(Quadrature::SIX);
+  EXPECT_EQ(fresh.quadrature(), Quadrature::SIX);
+}
+
+TEST(PatchRules, AreBuiltOnceAndStayWhereTheyAre)
+{
+  PatchRules rules(Quadrature::THREE);
+  EXPECT_EQ(rules.memory_usage(), 0.0);
+  const PatchRule &first = rules.get({5, 6, 6});
+  const double *data = first.rows.data();
+  const int npoints = first.npoints;
+  for (int n = 3; n < 12; ++n) rules.get({n, 6, 6});
+  EXPECT_EQ(&rules.get({5, 6, 6}), &first);
+  EXPECT_EQ(first.rows.data(), data);
+  EXPECT_EQ(first.npoints, npoints);
+  EXPECT_GE(rules.memory_usage(), sizeof(double) * first.rows.size());
+}
