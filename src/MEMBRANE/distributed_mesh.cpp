@@ -42,6 +42,10 @@ using Membrane_NS::Topology;
 // the ghost cutoff covers stencils that grow by this factor before the next run
 static constexpr double REACH_MARGIN = 1.25;
 
+static constexpr char MISSING_ATOM[] =
+    "Control point {} is used by a face but is not an atom: delete whole membranes only, with "
+    "delete_atoms ... bond yes mol yes";
+
 /* ---------------------------------------------------------------------- */
 
 DistributedMesh::DistributedMesh(LAMMPS *lmp) : Pointers(lmp) {}
@@ -133,9 +137,11 @@ void DistributedMesh::update()
   measure_reach();
   stale = true;
 
-  // no finite margin fits an error beforehand: stencils that outgrow it are found in refresh()
+  // stencils that outgrow the margin are found in local_neighbor(); an edge and the skin is what
+  // LAMMPS makes of the pair cutoff
 
-  comm->cutghostuser = MAX(comm->cutghostuser, REACH_MARGIN * reach_max);
+  comm->cutghostuser =
+      MAX(comm->cutghostuser, MAX(REACH_MARGIN * reach_max, edge_max + neighbor->skin));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -200,6 +206,7 @@ void DistributedMesh::rebuild(const AngleList &mine)
     topo = Topology(static_cast<int>(tags.size()), std::move(faces), labels);
   } catch (const MeshError &err) {
     version = 0;
+    report_missing_atoms();
     error->all(FLERR, "Membrane mesh: {}", err.what());
   }
 
@@ -226,6 +233,22 @@ void DistributedMesh::rebuild(const AngleList &mine)
         std::lower_bound(membranes.begin(), membranes.end(), molecule) - membranes.begin());
 }
 
+/* ----------------------------------------------------------------------
+   a hole where atoms were deleted: better named by what is missing
+------------------------------------------------------------------------- */
+
+void DistributedMesh::report_missing_atoms()
+{
+  std::vector<char> mine(tags.size(), 0), exists(tags.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = vertex(atom->tag[i]);
+    if (v >= 0) mine[v] = 1;
+  }
+  MPI_Allreduce(mine.data(), exists.data(), mine.size(), MPI_CHAR, MPI_MAX, world);
+  const auto missing = std::find(exists.begin(), exists.end(), 0);
+  if (missing != exists.end()) error->all(FLERR, MISSING_ATOM, tags[missing - exists.begin()]);
+}
+
 /* ---------------------------------------------------------------------- */
 
 int DistributedMesh::vertex(tagint id) const
@@ -247,6 +270,18 @@ bool DistributedMesh::is_closed_membrane(int membrane) const
   for (int c = 0; c < topo.num_components(); ++c)
     if (component_membrane[c] == membrane && !closed[c]) return false;
   return true;
+}
+
+Membrane_NS::TriangleMesh DistributedMesh::triangle_mesh() const
+{
+  Membrane_NS::TriangleMesh mesh;
+  const double *h = domain->h;
+  mesh.lattice << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+  for (int k = 0; k < 3; ++k) mesh.periodic[k] = domain->periodicity[k] != 0;
+  for (size_t i = 0; i < whole.size(); i += 3)
+    mesh.points.emplace_back(whole[i], whole[i + 1], whole[i + 2]);
+  mesh.faces = topo.faces();
+  return mesh;
 }
 
 /* ----------------------------------------------------------------------
@@ -295,11 +330,10 @@ void DistributedMesh::unwrap()
     for (int k = 0; k < 3; ++k) whole[3 * vertex(point.tag) + k] = point.x[k];
   for (int v = 0; v < n; ++v)
     for (int k = 0; k < 3; ++k)
-      if (!std::isfinite(whole[3 * v + k]))
-        error->all(FLERR,
-                   "Control point {} {}", tags[v],
-                   (bigint) all.size() < n ? "is used by a face but is not an atom"
-                                           : "has a coordinate that is not a finite number");
+      if (!std::isfinite(whole[3 * v + k])) {
+        if ((bigint) all.size() < n) report_missing_atoms();
+        error->all(FLERR, "Control point {} has a coordinate that is not a finite number", tags[v]);
+      }
 
   edge_max = 0.0;
   closed.assign(topo.num_components(), 1);
@@ -395,11 +429,18 @@ void DistributedMesh::measure_reach()
 
 void DistributedMesh::refresh()
 {
-  if (!stale && seen_ncalls == neighbor->ncalls && seen_nlocal == atom->nlocal &&
-      seen_nghost == atom->nghost)
-    return;
+  // the count of neighbor builds starts anew at each setup; the time step tells frames of rerun apart
+
+  const bool rebuilt =
+      stale || seen_ncalls != neighbor->ncalls || seen_lastcall != neighbor->lastcall;
+  if (!rebuilt && seen_nlocal == atom->nlocal && seen_nghost == atom->nghost) return;
+
+  // rerun reads coordinates, perhaps without image flags, between update() and setup
+
+  if (rebuilt && lmp->update->setupflag) unwrap();
   stale = false;
   seen_ncalls = neighbor->ncalls;
+  seen_lastcall = neighbor->lastcall;
   seen_nlocal = atom->nlocal;
   seen_nghost = atom->nghost;
   ++local_epoch;

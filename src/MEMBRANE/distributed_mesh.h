@@ -16,6 +16,7 @@
 
 #include "membrane_helfrich.h"
 #include "membrane_topology.h"
+#include "membrane_triangle_mesh.h"
 #include "pointers.h"
 
 #include <cstdint>
@@ -75,6 +76,8 @@ class DistributedMesh : protected Pointers {
   /// Unwrapped coordinates of all vertices at the last update(), [vertices][3]: each connected
   /// component in one piece.
   const std::vector<double> &unwrapped() const { return whole; }
+  /// The same with faces and the present box; the corner of the box is not the origin.
+  Membrane_NS::TriangleMesh triangle_mesh() const;
 
   // === This rank's part: the faces whose first corner it owns
 
@@ -106,13 +109,14 @@ class DistributedMesh : protected Pointers {
   double edge_max = 0.0, reach_max = 0.0;
 
   bool stale = true;
-  bigint seen_ncalls = -1, local_epoch = 0;
+  bigint seen_ncalls = -1, seen_lastcall = -1, local_epoch = 0;
   int seen_nlocal = -1, seen_nghost = -1;
   std::vector<int> faces_here, vertices_here;
 
   struct AngleList;
   void collect_angles(AngleList &);
   void rebuild(const AngleList &);
+  void report_missing_atoms();
   void unwrap();
   void measure_reach();
 };

@@ -24,10 +24,10 @@ namespace Membrane_NS {
 // Numbers in binary files, byte by byte: the byte order of the machine does not matter.
 
 template <typename T>
-using UnsignedLike = std::conditional_t<
-    sizeof(T) == 1, uint8_t,
-    std::conditional_t<sizeof(T) == 2, uint16_t,
-                       std::conditional_t<sizeof(T) == 4, uint32_t, uint64_t>>>;
+using UnsignedLike =
+    std::conditional_t<sizeof(T) == 1, uint8_t,
+                       std::conditional_t<sizeof(T) == 2, uint16_t,
+                                          std::conditional_t<sizeof(T) == 4, uint32_t, uint64_t>>>;
 
 /// The number stored in the sizeof(T) bytes at data.
 template <typename T> T load(const char *data, bool big_endian)
@@ -35,9 +35,8 @@ template <typename T> T load(const char *data, bool big_endian)
   UnsignedLike<T> bits = 0;
   for (size_t i = 0; i < sizeof(T); ++i) {
     const size_t shift = 8 * (big_endian ? sizeof(T) - 1 - i : i);
-    bits |= static_cast<UnsignedLike<T>>(static_cast<UnsignedLike<T>>(
-                                             static_cast<unsigned char>(data[i]))
-                                         << shift);
+    bits |= static_cast<UnsignedLike<T>>(
+        static_cast<UnsignedLike<T>>(static_cast<unsigned char>(data[i])) << shift);
   }
   T value;
   std::memcpy(&value, &bits, sizeof(T));

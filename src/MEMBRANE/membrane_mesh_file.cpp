@@ -33,7 +33,9 @@ namespace {
 
 std::string read_whole_file(const std::string &path)
 {
-  auto close = [](std::FILE *file) { std::fclose(file); };
+  auto close = [](std::FILE *file) {
+    std::fclose(file);
+  };
   std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file)
     mesh_file_error(path, 0,
@@ -57,8 +59,9 @@ std::string extension(const std::string &path)
   const size_t dot = path.find_last_of('.');
   if (dot == std::string::npos || dot < name) return "";
   std::string result = path.substr(dot + 1);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) {
+    return std::tolower(c);
+  });
   return result;
 }
 
@@ -151,8 +154,8 @@ TriangleMesh Membrane_NS::read_off(const std::string &path, std::string_view con
 
   auto next_item = [&](const char *what, int done, int all) {
     if (!text.next_line())
-      text.fail("the file ends after " + std::to_string(done) + " of " + std::to_string(all) +
-                " " + what + ": it is truncated or its counts are wrong; export it again");
+      text.fail("the file ends after " + std::to_string(done) + " of " + std::to_string(all) + " " +
+                what + ": it is truncated or its counts are wrong; export it again");
   };
 
   TriangleMesh mesh;

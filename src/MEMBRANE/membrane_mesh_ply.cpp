@@ -73,11 +73,11 @@ size_t bytes_of(Type type)
 Type type_of(const MeshText &text, int word)
 {
   static const std::pair<const char *, Type> names[] = {
-      {"char", Type::INT8},     {"int8", Type::INT8},       {"uchar", Type::UINT8},
-      {"uint8", Type::UINT8},   {"short", Type::INT16},     {"int16", Type::INT16},
-      {"ushort", Type::UINT16}, {"uint16", Type::UINT16},   {"int", Type::INT32},
-      {"int32", Type::INT32},   {"uint", Type::UINT32},     {"uint32", Type::UINT32},
-      {"float", Type::FLOAT32}, {"float32", Type::FLOAT32}, {"double", Type::FLOAT64},
+      {"char", Type::INT8},      {"int8", Type::INT8},       {"uchar", Type::UINT8},
+      {"uint8", Type::UINT8},    {"short", Type::INT16},     {"int16", Type::INT16},
+      {"ushort", Type::UINT16},  {"uint16", Type::UINT16},   {"int", Type::INT32},
+      {"int32", Type::INT32},    {"uint", Type::UINT32},     {"uint32", Type::UINT32},
+      {"float", Type::FLOAT32},  {"float32", Type::FLOAT32}, {"double", Type::FLOAT64},
       {"float64", Type::FLOAT64}};
   for (const auto &[name, type] : names)
     if (text[word] == name) return type;
@@ -93,7 +93,8 @@ Header read_header(const std::string &path, std::string_view content)
   Header header;
   bool has_format = false;
   while (true) {
-    if (!text.next_line()) text.fail("the header has no end_header: it is truncated; export it again");
+    if (!text.next_line())
+      text.fail("the header has no end_header: it is truncated; export it again");
     const std::string_view keyword = text[0];
     if (keyword == "comment" || keyword == "obj_info") continue;
     if (keyword == "end_header") break;
@@ -236,8 +237,10 @@ int whole_number(const Body &body, double value, double limit, const char *what)
   if (!(value >= 0.0 && value < limit) || value != std::floor(value)) {
     std::string number;
     append_number(number, value);
-    body.fail("has the " + std::string(what) + " " + number + ", which must be an integer from 0 "
-              "to below " + std::to_string(static_cast<long long>(limit)) + "; correct it");
+    body.fail("has the " + std::string(what) + " " + number +
+              ", which must be an integer from 0 "
+              "to below " +
+              std::to_string(static_cast<long long>(limit)) + "; correct it");
   }
   return static_cast<int>(value);
 }

@@ -132,11 +132,11 @@ TriangleMesh Membrane_NS::icosphere(int level, double radius)
 
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   TriangleMesh mesh;
-  mesh.points = {{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t},
-                 {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
-  mesh.faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  mesh.points = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+                 {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
+  mesh.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (Vector3d &p : mesh.points) p.normalize();
   for (int i = 0; i < level; ++i) {
     Split split = split_faces(topology_of(mesh));
@@ -222,7 +222,9 @@ TriangleMesh Membrane_NS::torus(int nu, int nv, double R, double r)
 
   // nv steps around the tube turn nv/2 spacings around the axis: point (i, nv) is (i + nv/2, 0)
 
-  auto number = [&](int i, int j) { return (i + j / nv * (nv / 2)) % nu * nv + j % nv; };
+  auto number = [&](int i, int j) {
+    return (i + j / nv * (nv / 2)) % nu * nv + j % nv;
+  };
 
   for (int i = 0; i < nu; ++i)
     for (int j = 0; j < nv; ++j) {

@@ -85,7 +85,9 @@ class Welder {
   uint64_t cell(const Vector3d &point, int dx, int dy, int dz) const
   {
     const Vector3d scaled = (point - origin_) / tolerance_;
-    auto index = [](double x, int d) { return static_cast<uint64_t>(x + 1.0) + d; };
+    auto index = [](double x, int d) {
+      return static_cast<uint64_t>(x + 1.0) + d;
+    };
     return index(scaled[0], dx) << 42 ^ index(scaled[1], dy) << 21 ^ index(scaled[2], dz);
   }
 
@@ -161,8 +163,9 @@ std::vector<Vector3d> read_text(const std::string &path, std::string_view conten
   int expected = OUTSIDE;
   while (text.next_line()) {
     std::string word(text[0]);
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
+      return std::tolower(c);
+    });
     if (expected == OUTSIDE && word == "solid") {
       expected = NEXT_FACET;
     } else if (expected == NEXT_FACET && word == "endsolid") {

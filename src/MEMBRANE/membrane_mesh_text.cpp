@@ -125,8 +125,7 @@ double MeshText::coordinate(int i) const
   if (!parse_number(words_[i], value))
     fail(quoted(words_[i]) + " is not a number; correct it or export the mesh again");
   if (!std::isfinite(value))
-    fail("coordinate " + quoted(words_[i]) +
-         " is not finite; correct it or export the mesh again");
+    fail("coordinate " + quoted(words_[i]) + " is not finite; correct it or export the mesh again");
   return value;
 }
 

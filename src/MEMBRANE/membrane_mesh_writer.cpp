@@ -37,7 +37,9 @@ namespace {
 
 void check(const std::string &path, const TriangleMesh &mesh, const PointFields &fields)
 {
-  auto fail = [&](const std::string &problem) { mesh_file_error(path, 0, problem); };
+  auto fail = [&](const std::string &problem) {
+    mesh_file_error(path, 0, problem);
+  };
   for (size_t v = 0; v < mesh.points.size(); ++v)
     if (!mesh.points[v].allFinite())
       fail("not written: a coordinate of vertex " + std::to_string(v) +
@@ -49,8 +51,8 @@ void check(const std::string &path, const TriangleMesh &mesh, const PointFields 
            " vertices; it needs one a vertex");
     for (size_t v = 0; v < values.size(); ++v)
       if (!std::isfinite(values[v]))
-        fail("not written: the value of field " + quoted(name) + " at vertex " +
-             std::to_string(v) + " is not finite; check the run that made it");
+        fail("not written: the value of field " + quoted(name) + " at vertex " + std::to_string(v) +
+             " is not finite; check the run that made it");
   }
 }
 
@@ -84,47 +86,6 @@ void append_line(std::string &text, const Face &face)
   text += '3';
   for (int v : face) text += ' ' + std::to_string(v);
   text += '\n';
-}
-
-/* ----------------------------------------------------------------------
-   the mesh as it is drawn: a face that crosses a periodic boundary stands by its corner 0, and a
-   corner of it that lies elsewhere is doubled. source[v] is the point that v is an image of.
-------------------------------------------------------------------------- */
-
-struct Drawing {
-  TriangleMesh mesh;
-  std::vector<int> source;
-};
-
-Drawing unwrapped(const TriangleMesh &mesh)
-{
-  Drawing drawing;
-  drawing.mesh = mesh;
-  for (size_t v = 0; v < mesh.points.size(); ++v) drawing.source.push_back(static_cast<int>(v));
-  if (!mesh.is_periodic()) return drawing;
-
-  const Eigen::Matrix3d to_fraction = mesh.lattice.inverse();
-  std::map<std::array<int, 4>, int> images;    // point and box shifts -> its image
-  for (Face &face : drawing.mesh.faces) {
-    const int anchor = face[0];
-    for (int k = 1; k < 3; ++k) {
-      const int v = face[k];
-      const Vector3d position = mesh.points[anchor] + mesh.edge(anchor, v);
-      const Vector3d shift = to_fraction * (position - mesh.points[v]);
-      const std::array<int, 4> key = {v, static_cast<int>(std::lround(shift[0])),
-                                      static_cast<int>(std::lround(shift[1])),
-                                      static_cast<int>(std::lround(shift[2]))};
-      if (key[1] == 0 && key[2] == 0 && key[3] == 0) continue;
-      const auto [image, is_new] =
-          images.try_emplace(key, static_cast<int>(drawing.mesh.points.size()));
-      if (is_new) {
-        drawing.mesh.points.push_back(position);
-        drawing.source.push_back(v);
-      }
-      face[k] = image->second;
-    }
-  }
-  return drawing;
 }
 
 // names of the fields as one word each, all different from one another and from x, y, z
@@ -205,6 +166,39 @@ void append_array(std::string &xml, const std::string &type, const std::string &
 
 /* ---------------------------------------------------------------------- */
 
+MeshDrawing Membrane_NS::cut_open(const TriangleMesh &mesh)
+{
+  MeshDrawing drawing;
+  drawing.mesh = mesh;
+  for (size_t v = 0; v < mesh.points.size(); ++v) drawing.source.push_back(static_cast<int>(v));
+  if (!mesh.is_periodic()) return drawing;
+
+  const Eigen::Matrix3d to_fraction = mesh.lattice.inverse();
+  std::map<std::array<int, 4>, int> images;    // point and box shifts -> its image
+  for (Face &face : drawing.mesh.faces) {
+    const int anchor = face[0];
+    for (int k = 1; k < 3; ++k) {
+      const int v = face[k];
+      const Vector3d position = mesh.points[anchor] + mesh.edge(anchor, v);
+      const Vector3d shift = to_fraction * (position - mesh.points[v]);
+      const std::array<int, 4> key = {v, static_cast<int>(std::lround(shift[0])),
+                                      static_cast<int>(std::lround(shift[1])),
+                                      static_cast<int>(std::lround(shift[2]))};
+      if (key[1] == 0 && key[2] == 0 && key[3] == 0) continue;
+      const auto [image, is_new] =
+          images.try_emplace(key, static_cast<int>(drawing.mesh.points.size()));
+      if (is_new) {
+        drawing.mesh.points.push_back(position);
+        drawing.source.push_back(v);
+      }
+      face[k] = image->second;
+    }
+  }
+  return drawing;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void Membrane_NS::write_off(const std::string &path, const TriangleMesh &mesh,
                             const PointFields &fields)
 {
@@ -226,11 +220,11 @@ void Membrane_NS::write_ply(const std::string &path, const TriangleMesh &mesh,
 {
   check(path, mesh, fields);
   const bool is_text = format == PlyFormat::TEXT;
-  std::string content = std::string("ply\nformat ") +
-      (is_text ? "ascii" : "binary_little_endian") + " 1.0\nelement vertex " +
-      std::to_string(mesh.points.size()) +
+  std::string content = std::string("ply\nformat ") + (is_text ? "ascii" : "binary_little_endian") +
+      " 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
       "\nproperty double x\nproperty double y\nproperty double z\n";
-  for (const std::string &name : ply_names(path, fields)) content += "property double " + name + "\n";
+  for (const std::string &name : ply_names(path, fields))
+    content += "property double " + name + "\n";
   content += "element face " + std::to_string(mesh.faces.size()) +
       "\nproperty list uchar int vertex_indices\nend_header\n";
 
@@ -267,7 +261,7 @@ void Membrane_NS::write_vtp(const std::string &path, const TriangleMesh &mesh,
                             const PointFields &fields)
 {
   check(path, mesh, fields);
-  const Drawing drawing = unwrapped(mesh);
+  const MeshDrawing drawing = cut_open(mesh);
 
   std::vector<double> coordinates;
   coordinates.reserve(3 * drawing.mesh.points.size());

@@ -25,6 +25,16 @@ namespace Membrane_NS {
 /// Named scalars at the points of a mesh, one value a point: mean curvature, membrane id, ...
 using PointFields = std::vector<std::pair<std::string, std::vector<double>>>;
 
+/// A mesh as it is drawn; source[v] is the point of the mesh it came from that v is an image of.
+struct MeshDrawing {
+  TriangleMesh mesh;
+  std::vector<int> source;
+};
+
+/** Cut a periodic mesh open: a face that crosses the box stands by its corner 0, and a corner of it
+    that lies elsewhere is doubled, so that nothing is drawn across the box. */
+MeshDrawing cut_open(const TriangleMesh &mesh);
+
 /// How the body of a PLY file is stored.
 enum class PlyFormat { TEXT, BINARY };    // binary: little endian
 
@@ -41,9 +51,8 @@ void write_off(const std::string &path, const TriangleMesh &mesh, const PointFie
 void write_ply(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {},
                PlyFormat format = PlyFormat::BINARY);
 
-/** VTK XML PolyData for ParaView and OVITO, for drawing: the first field is the active scalar, and
-    on a periodic mesh the faces that cross the box get corners of their own beyond it, so that
-    nothing is drawn across the box. */
+/// VTK XML PolyData for ParaView and OVITO, for drawing: the first field is the active scalar, and
+/// a periodic mesh is cut open.
 void write_vtp(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {});
 
 }    // namespace Membrane_NS

@@ -31,9 +31,9 @@ namespace Membrane_NS {
     shorter than half the box. Nothing is checked here; Topology checks the faces. */
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> points;
-  std::vector<Face> faces;                                   ///< counter-clockwise from outside
-  Eigen::Matrix3d lattice = Eigen::Matrix3d::Identity();     ///< columns are the box vectors
-  std::array<bool, 3> periodic = {false, false, false};      ///< along each box vector
+  std::vector<Face> faces;                                  ///< counter-clockwise from outside
+  Eigen::Matrix3d lattice = Eigen::Matrix3d::Identity();    ///< columns are the box vectors
+  std::array<bool, 3> periodic = {false, false, false};     ///< along each box vector
 
   bool is_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
 

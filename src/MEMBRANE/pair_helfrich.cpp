@@ -20,7 +20,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "distributed_mesh.h"
-#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
@@ -43,7 +42,7 @@ enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, NEXTRA };
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
     Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
     volumes(false), area_local(false), gauss(false), report(false), restored(false),
-    epoch(-1)
+    epoch(-1), totals(lmp)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -273,12 +272,7 @@ void PairHelfrich::choose_terms()
       gauss = gauss || c.kg != 0.0;
     }
 
-  components.assign(topology.num_components(), Totals());
-  for (int v = 0; v < topology.num_vertices(); ++v) {
-    const int c = topology.component(v);
-    for (int k = 0; k < 3; ++k)
-      components[c].centre[k] += mesh->unwrapped()[3 * (size_t) v + k] / topology.num_vertices(c);
-  }
+  totals.reset(*mesh);
 
   for (auto &c : coefficients) c.fresh = false;
   restored = false;
@@ -335,94 +329,6 @@ void PairHelfrich::localize()
   model.tension = base_tension;
 }
 
-/* ---------------------------------------------------------------------- */
-
-static inline int component_of(const DistributedMesh *mesh, const FaceGroup &group, int s)
-{
-  const auto &topology = mesh->topology();
-  return topology.component(topology.face(group.face[std::min(s, group.nfaces - 1)])[0]);
-}
-
-/* ----------------------------------------------------------------------
-   the point volumes are measured from, moved to the periodic image each face is in
-------------------------------------------------------------------------- */
-
-void PairHelfrich::place_origins()
-{
-  for (const FaceGroup &group : groups)
-    for (int s = 0; s < group.nslots(); ++s) {
-      const int face = group.face[std::min(s, group.nfaces - 1)];
-      const int owner = atom->map(mesh->tag(mesh->topology().face(face)[0]));
-      const Totals &total = components[component_of(mesh, group, s)];
-      double unwrapped[3];
-      domain->unmap(atom->x[owner], atom->image[owner], unwrapped);
-      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
-      for (int k = 0; k < 3; ++k)
-        origin[k] = total.centre[k] - (unwrapped[k] - atom->x[owner][k]);
-    }
-}
-
-/* ----------------------------------------------------------------------
-   first pass: areas, and volumes if wanted, of faces and membranes.
-
-   V = (1/3) sum weight (r - centre).n dA, with the centre of the component's control points: the
-   quadrature of n dA over a closed surface vanishes only to its own accuracy, and measuring from
-   the centre keeps V, and so total momentum, exactly independent of where the membrane is.
-------------------------------------------------------------------------- */
-
-void PairHelfrich::measure(bool with_volume)
-{
-  const int nslots = count_slots(groups);
-  integrals.area.resize(nslots);
-  integrals.volume.resize(with_volume ? nslots : 0);
-  integrals.vector_area.resize(with_volume ? 3 * (size_t) nslots : 0);
-
-  const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  if (with_volume) place_origins();
-  for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
-
-  constexpr int WIDTH = 8;
-  const int n = components.size();
-  std::vector<double> mine((size_t) n * WIDTH, 0.0), all(mine.size());
-  for (const FaceGroup &group : groups)
-    for (int s = 0; s < group.nfaces; ++s) {
-      const int slot = group.first_slot + s;
-      double *sum = &mine[component_of(mesh, group, s) * WIDTH];
-      sum[0] += integrals.area[slot];
-      if (!with_volume) continue;
-      sum[1] += integrals.volume[slot];
-      for (int k = 0; k < 3; ++k) sum[2 + k] += integrals.vector_area[3 * (size_t) slot + k];
-    }
-  if (with_volume)
-    for (int i = 0; i < atom->nlocal; ++i) {
-      const int v = mesh->vertex_of_atom(i);
-      if (v < 0) continue;
-      double unwrapped[3];
-      domain->unmap(atom->x[i], atom->image[i], unwrapped);
-      double *sum = &mine[mesh->topology().component(v) * WIDTH];
-      for (int k = 0; k < 3; ++k) sum[5 + k] += unwrapped[k];
-    }
-  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
-
-  membranes.assign(mesh->molecules().size(), Totals());
-  for (int c = 0; c < n; ++c) {
-    const double *sum = &all[c * WIDTH];
-    Totals &total = components[c];
-    Totals &membrane = membranes[mesh->membrane(c)];
-    total.area = sum[0];
-    membrane.area += total.area;
-    if (!with_volume) continue;
-    total.volume = sum[1];
-    for (int k = 0; k < 3; ++k) {
-      const double centre = sum[5 + k] / mesh->topology().num_vertices(c);
-      total.vector_area[k] = sum[2 + k];
-      total.volume -= (centre - total.centre[k]) * sum[2 + k] / 3.0;
-      total.centre[k] = centre;
-    }
-    if (mesh->is_closed(c)) membrane.volume += total.volume;
-  }
-}
-
 /* ----------------------------------------------------------------------
    reference areas and volumes: kept per molecule ID, through later runs and restarts
 ------------------------------------------------------------------------- */
@@ -430,6 +336,7 @@ void PairHelfrich::measure(bool with_volume)
 void PairHelfrich::take_references()
 {
   const auto &molecules = mesh->molecules();
+  const auto &membranes = totals.membranes();
   bool missing = false;
   for (size_t m = 0; m < molecules.size(); ++m) {
     const Coefficients &c = *membrane_terms[m];
@@ -480,6 +387,7 @@ void PairHelfrich::take_references()
 void PairHelfrich::apply_global_terms()
 {
   const auto &molecules = mesh->molecules();
+  const auto &membranes = totals.membranes();
   std::vector<double> tension(molecules.size(), 0.0), pressure(molecules.size(), 0.0);
   for (size_t m = 0; m < molecules.size(); ++m) {
     const Coefficients &c = *membrane_terms[m];
@@ -494,7 +402,7 @@ void PairHelfrich::apply_global_terms()
   for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nslots(); ++s) {
       const int slot = group.first_slot + s;
-      const int m = mesh->membrane(component_of(mesh, group, s));
+      const int m = mesh->membrane(totals.component_of(group, s));
       model.tension[slot] = base_tension[slot] + tension[m];
       model.pressure[slot] = pressure[m];
       if (!area_local || local_modulus[slot] == 0.0) continue;
@@ -504,13 +412,14 @@ void PairHelfrich::apply_global_terms()
 }
 
 /* ----------------------------------------------------------------------
-   gradient of the volume through the centre it is measured from, see measure()
+   gradient of the volume through the centre it is measured from, see MeshTotals
 ------------------------------------------------------------------------- */
 
 void PairHelfrich::share_volume_recoil()
 {
   const auto &topology = mesh->topology();
   const auto &molecules = mesh->molecules();
+  const auto &membranes = totals.membranes();
   for (int i = 0; i < atom->nlocal; ++i) {
     const int v = mesh->vertex_of_atom(i);
     if (v < 0) continue;
@@ -523,7 +432,7 @@ void PairHelfrich::share_volume_recoil()
       pressure += terms.volume_modulus * (membranes[m].volume - v0) / v0;
     }
     const double share = pressure / (3.0 * topology.num_vertices(c));
-    for (int k = 0; k < 3; ++k) atom->f[i][k] += share * components[c].vector_area[k];
+    for (int k = 0; k < 3; ++k) atom->f[i][k] += share * totals.components()[c].vector_area[k];
   }
 }
 
@@ -538,11 +447,11 @@ void PairHelfrich::compute(int eflag, int vflag)
 
   const bool wants_volume = volumes || (eflag_global && report);
   if (first_pass || wants_volume) {
-    measure(wants_volume);
+    totals.measure(groups, model, integrals, wants_volume);
     take_references();
   }
   if (first_pass) apply_global_terms();
-  if (volumes) place_origins();
+  if (volumes) totals.place_origins(groups, model);
 
   const int nslots = count_slots(groups);
   for (auto *sum : {&energies.bending, &energies.gauss, &energies.area})
@@ -581,6 +490,7 @@ void PairHelfrich::tally()
   // energy of each membrane's area and volume, per area
 
   const auto &molecules = mesh->molecules();
+  const auto &membranes = totals.membranes();
   std::vector<double> area_energy(molecules.size(), 0.0), volume_energy(molecules.size(), 0.0);
   if (eflag_either && first_pass)
     for (size_t m = 0; m < molecules.size(); ++m) {
@@ -604,7 +514,7 @@ void PairHelfrich::tally()
       const int slot = group.first_slot + s;
       if (eflag_either) {
         const double area = energies.area[slot];
-        const int m = mesh->membrane(component_of(mesh, group, s));
+        const int m = mesh->membrane(totals.component_of(group, s));
         double part[4] = {energies.bending[slot], energies.gauss[slot],
                           (base_tension[slot] + area_energy[m]) * area, volume_energy[m] * area};
         if (area_local && local_modulus[slot] != 0.0) {
@@ -629,7 +539,7 @@ void PairHelfrich::tally()
     }
 
   if (eflag_either && (volumes || report) && comm->me == 0)
-    for (const Totals &membrane : membranes) pvector[TOTAL_VOLUME] += membrane.volume;
+    for (const auto &membrane : totals.membranes()) pvector[TOTAL_VOLUME] += membrane.volume;
 }
 
 /* ----------------------------------------------------------------------

@@ -21,6 +21,7 @@ PairStyle(helfrich,PairHelfrich);
 #define LMP_PAIR_HELFRICH_H
 
 #include "membrane_helfrich.h"
+#include "mesh_totals.h"
 #include "pair.h"
 
 #include <map>
@@ -68,13 +69,6 @@ class PairHelfrich : public Pair {
     bool uses_volume() const { return volume_modulus != 0.0 || pressure != 0.0; }
   };
 
-  // sums over a connected component of the mesh, or what they give for a membrane
-
-  struct Totals {
-    double area = 0.0, volume = 0.0;
-    double vector_area[3] = {0.0, 0.0, 0.0}, centre[3] = {0.0, 0.0, 0.0};
-  };
-
   // areas and volume a membrane is compared with, taken at the first step for "init"
 
   struct Reference {
@@ -102,15 +96,13 @@ class PairHelfrich : public Pair {
   Membrane_NS::FaceIntegrals integrals;
   Membrane_NS::FaceEnergies energies;
   std::vector<double> base_tension, local_modulus;    // by slot
-  std::vector<Totals> components, membranes;
+  MeshTotals totals;
 
   void allocate();
   void choose_terms();
   void localize();
-  void measure(bool);
   void take_references();
   void apply_global_terms();
-  void place_origins();
   void share_volume_recoil();
   void tally();
   void read_all(FILE *, void *, size_t, size_t);

@@ -13,13 +13,14 @@
 
 #include "membrane_mesh_shapes.h"
 
-#include "membrane_limit_basis.h"
+#include "membrane_mesh_file.h"
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 
 using namespace Membrane_NS;
 using Eigen::Matrix3d;
@@ -255,6 +256,23 @@ TEST(MeshShapes, TorusCloses)
     }
 }
 
+TEST(MeshShapes, AreTheReferenceMeshes)
+{
+  const char *folder = std::getenv("REFERENCE");
+  if (!folder) GTEST_SKIP() << "set REFERENCE to the folder of reference meshes";
+  const std::pair<const char *, TriangleMesh> shapes[] = {
+      {"icosphere_1.off", icosphere(1, 1.0)},
+      {"icosphere_2.off", icosphere(2, 1.0)},
+      {"torus_24x12.off", torus(24, 12, 1.0, 0.35)}};
+  for (const auto &[name, mesh] : shapes) {
+    const TriangleMesh reference = read_mesh(std::string(folder) + "/" + name);
+    EXPECT_EQ(mesh.faces, reference.faces) << name;
+    ASSERT_EQ(mesh.points.size(), reference.points.size()) << name;
+    for (size_t v = 0; v < mesh.points.size(); ++v)
+      ASSERT_LT((mesh.points[v] - reference.points[v]).norm(), 1e-14) << name;
+  }
+}
+
 TEST(MeshShapes, SmallestShapesAreValid)
 {
   const Matrix3d lattice = box(1, 1, 1);
@@ -262,6 +280,9 @@ TEST(MeshShapes, SmallestShapesAreValid)
   expect_all_valences_are_six(tube(3, 4, 0.2, lattice, 1));
   EXPECT_EQ(icosphere(0, 1.0).points.size(), 12u);
 }
+
+// one line for each case
+// clang-format off
 
 TEST(MeshShapes, ImpossibleNumbersAreNamed)
 {
@@ -283,6 +304,8 @@ TEST(MeshShapes, ImpossibleNumbersAreNamed)
   EXPECT_THAT(error_of([&] { torus(4, 5, 1, 0.1); }), HasSubstr("not 5"));
   EXPECT_THAT(error_of([&] { torus(4, 4, 1, 1); }), HasSubstr("smaller"));
 }
+
+// clang-format on
 
 // === Refinement
 
@@ -306,7 +329,8 @@ TEST(LoopRefine, LeavesTheLimitSurfaceWhereItIs)
   for (const TriangleMesh &mesh : assorted_meshes()) {
     const std::vector<Vector3d> before = limit_positions(mesh);
     const TriangleMesh once = loop_refine(mesh);
-    const std::vector<Vector3d> after = limit_positions(once), twice = limit_positions(loop_refine(once));
+    const std::vector<Vector3d> after = limit_positions(once),
+                                twice = limit_positions(loop_refine(once));
     for (size_t v = 0; v < before.size(); ++v) ASSERT_LT((after[v] - before[v]).norm(), 1e-14 * 10);
     for (size_t v = 0; v < after.size(); ++v) ASSERT_LT((twice[v] - after[v]).norm(), 1e-14 * 10);
   }
@@ -330,6 +354,9 @@ TEST(LoopRefine, KeepsAPlaneAndItsOrientation)
   }
 }
 
+// one line for each case
+// clang-format off
+
 TEST(LoopRefine, RejectsAnOpenMesh)
 {
   TriangleMesh mesh = tetrahedron();
@@ -338,6 +365,8 @@ TEST(LoopRefine, RejectsAnOpenMesh)
   EXPECT_THAT(error_of([&] { interpolate(mesh); }), HasSubstr("boundary"));
   EXPECT_THAT(error_of([&] { limit_positions(mesh); }), HasSubstr("boundary"));
 }
+
+// clang-format on
 
 // === Interpolation
 
@@ -371,8 +400,9 @@ TEST(Interpolate, PointsInAnyPeriodicImageMoveAlike)
     scattered.points[v] += mesh.lattice * Vector3d(v % 3 - 1.0, v % 5 - 2.0, 0.0);
   const TriangleMesh expected = interpolate(mesh), control = interpolate(scattered);
   for (size_t v = 0; v < mesh.points.size(); ++v)
-    ASSERT_LT((control.points[v] - scattered.points[v] - expected.points[v] + mesh.points[v]).norm(),
-              1e-14);
+    ASSERT_LT(
+        (control.points[v] - scattered.points[v] - expected.points[v] + mesh.points[v]).norm(),
+        1e-14);
 }
 
 TEST(Interpolate, LargeMeshConvergesAsTheSmallOneDoes)
@@ -383,9 +413,14 @@ TEST(Interpolate, LargeMeshConvergesAsTheSmallOneDoes)
     ASSERT_LT((limit[v] - mesh.points[v]).norm(), 10.0 * 1e-13);
 }
 
+// one line for each case
+// clang-format off
+
 TEST(Interpolate, RejectsCoordinatesThatAreNotFinite)
 {
   TriangleMesh mesh = tetrahedron();
   mesh.points[2][1] = std::nan("");
   EXPECT_THAT(error_of([&] { interpolate(mesh); }), HasSubstr("not finite"));
 }
+
+// clang-format on

@@ -250,17 +250,18 @@ TEST(Topology, RejectsAFlippedFace)
   std::vector<Face> faces = OCTAHEDRON;
   std::swap(faces[3][0], faces[3][1]);
   const std::string message = error_of(6, faces);
-  EXPECT_THAT(message, AllOf(HasSubstr("face 3"), HasSubstr("same direction"),
-                             HasSubstr("reverse the order of its corners")));
+  EXPECT_THAT(message,
+              AllOf(HasSubstr("face 3"), HasSubstr("same direction"),
+                    HasSubstr("reverse the order of its corners")));
 }
 
 TEST(Topology, RejectsABoundary)
 {
   std::vector<Face> faces = OCTAHEDRON;
   faces.pop_back();
-  EXPECT_THAT(error_of(6, faces),
-              AllOf(HasSubstr("is a boundary"), HasSubstr("edge vertex"),
-                    HasSubstr("close the hole")));
+  EXPECT_THAT(
+      error_of(6, faces),
+      AllOf(HasSubstr("is a boundary"), HasSubstr("edge vertex"), HasSubstr("close the hole")));
 }
 
 TEST(Topology, RejectsTwoFacesBackToBack)
@@ -277,16 +278,20 @@ TEST(Topology, RejectsAnUnusedVertex)
 TEST(Topology, RejectsSurfacesThatTouchInAPoint)
 {
   std::vector<Face> second = shifted(TETRAHEDRON, 3);    // both have vertex 3
-  EXPECT_THAT(error_of(7, joined(TETRAHEDRON, second)),
-              AllOf(HasSubstr("around vertex 3 form more than one fan"),
-                    HasSubstr("its own vertex")));
+  EXPECT_THAT(
+      error_of(7, joined(TETRAHEDRON, second)),
+      AllOf(HasSubstr("around vertex 3 form more than one fan"), HasSubstr("its own vertex")));
 }
 
 TEST(Topology, MessagesUseTheLabelsGiven)
 {
   Topology::Labels labels;
-  labels.vertex = [](int v) { return "control point " + std::to_string(v + 1); };
-  labels.face = [](int f) { return "angle " + std::to_string(f + 1); };
+  labels.vertex = [](int v) {
+    return "control point " + std::to_string(v + 1);
+  };
+  labels.face = [](int f) {
+    return "angle " + std::to_string(f + 1);
+  };
   EXPECT_THAT(error_of(5, TETRAHEDRON, labels), HasSubstr("control point 5 is in no face"));
   EXPECT_THAT(error_of(4, {{0, 1, 2}, {3, 2, 3}}, labels),
               HasSubstr("angle 2 uses control point 4 twice"));

@@ -1,0 +1,332 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+#include "compute_membrane_shape.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "error.h"
+#include "group.h"
+#include "math_const.h"
+#include "math_extra.h"
+#include "memory.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace MathConst;
+using Membrane_NS::FaceGroup;
+using Membrane_NS::PatchRules;
+using Membrane_NS::Quadrature;
+
+// columns
+
+enum {
+  AREA,
+  VOLUME,
+  REDUCED_VOLUME,
+  MEAN_CURVATURE,
+  WILLMORE,
+  EULER,
+  SHORTEST_EDGE,
+  LONGEST_EDGE,
+  SMALLEST_ANGLE,
+  LARGEST_FOLD,
+  CENTRE,
+  NCOLUMNS = CENTRE + 3
+};
+
+// what the ranks add up and maximise for each membrane
+
+namespace {
+struct Sums {
+  enum { MEAN, WILLMORE, MOMENT, WIDTH = MOMENT + 3 };
+};
+struct Extremes {
+  enum { SHORTEST, LONGEST, ANGLE, FOLD, WIDTH };
+};
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+static Quadrature parse_arguments(LAMMPS *lmp, int narg, char **arg)
+{
+  Quadrature quadrature = Quadrature::SIX;
+  for (int iarg = 3; iarg < narg; iarg += 2) {
+    if (strcmp(arg[iarg], "quadrature") != 0)
+      lmp->error->all(FLERR,
+                      "Unknown compute membrane/shape keyword {}; the only one is: quadrature",
+                      arg[iarg]);
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, "compute membrane/shape quadrature", lmp->error);
+    if (!Membrane_NS::parse_quadrature(arg[iarg + 1], quadrature))
+      lmp->error->all(FLERR,
+                      "compute membrane/shape quadrature {} is not one of 1, 3, 6, 12, careful",
+                      arg[iarg + 1]);
+  }
+  return quadrature;
+}
+
+/* ----------------------------------------------------------------------
+   all values are intensive: they are those of the surface, however many control points it has
+------------------------------------------------------------------------- */
+
+ComputeMembraneShape::ComputeMembraneShape(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), mesh(nullptr), rules(parse_arguments(lmp, narg, arg)), totals(lmp),
+    generation(0), epoch(-1)
+{
+  DistributedMesh::of(lmp, "Compute membrane/shape");
+  vector_flag = array_flag = 1;
+  size_vector = size_array_cols = NCOLUMNS;
+  size_array_rows = 0;
+  size_array_rows_variable = 1;
+  extvector = extarray = 0;
+  vector = new double[NCOLUMNS]();
+}
+
+ComputeMembraneShape::~ComputeMembraneShape()
+{
+  delete[] vector;
+  memory->destroy(array);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeMembraneShape::init()
+{
+  mesh = &DistributedMesh::of(lmp, "Compute membrane/shape");
+  mesh->update();
+  epoch = -1;
+  choose_membranes();
+}
+
+/* ----------------------------------------------------------------------
+   rows: the membranes of the group, which has all of a membrane or nothing
+------------------------------------------------------------------------- */
+
+void ComputeMembraneShape::choose_membranes()
+{
+  const auto &topology = mesh->topology();
+  const auto &molecules = mesh->molecules();
+  const int nmembranes = molecules.size();
+  std::vector<int> mine(nmembranes, 0), inside(nmembranes), total(nmembranes, 0);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh->vertex(atom->tag[i]);
+    if (v >= 0 && atom->mask[i] & groupbit) ++mine[mesh->membrane(topology.component(v))];
+  }
+  MPI_Allreduce(mine.data(), inside.data(), nmembranes, MPI_INT, MPI_SUM, world);
+  for (int c = 0; c < topology.num_components(); ++c)
+    total[mesh->membrane(c)] += topology.num_vertices(c);
+
+  members.clear();
+  for (int m = 0; m < nmembranes; ++m) {
+    if (inside[m] == 0) continue;
+    if (inside[m] != total[m])
+      error->all(
+          FLERR,
+          "Compute {} membrane/shape: group {} has {} of the {} control points of membrane "
+          "{}; a shape is that of a whole membrane: use a group that has all of them or none",
+          id, group->names[igroup], inside[m], total[m], molecules[m]);
+    members.push_back(m);
+  }
+  if (members.empty() && comm->me == 0)
+    error->warning(FLERR, "Compute {} membrane/shape: group {} has no membrane", id,
+                   group->names[igroup]);
+
+  size_array_rows = members.size();
+  memory->destroy(array);
+  memory->create(array, MAX(size_array_rows, 1), NCOLUMNS, "membrane/shape:array");
+  std::fill_n(array[0], MAX(size_array_rows, 1) * NCOLUMNS, 0.0);
+
+  totals.reset(*mesh);
+  generation = mesh->generation();
+}
+
+/* ----------------------------------------------------------------------
+   after reneighbouring: faces of this rank and the points across their edges
+------------------------------------------------------------------------- */
+
+void ComputeMembraneShape::localize()
+{
+  groups = mesh->local_groups(rules);
+  epoch = mesh->epoch();
+  const int nslots = count_slots(groups);
+  model.resize(nslots);
+  curvature.resize(nslots);
+  beyond.assign(3 * (size_t) nslots, -1);
+
+  const auto &topology = mesh->topology();
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nfaces; ++s) {
+      const int f = group.face[s];
+      const int first =
+          Membrane_NS::corner_of(topology.face(f), mesh->vertex(atom->tag[group.point(s, 0)]));
+      for (int k = 0; k < 3; ++k)
+        beyond[3 * (size_t) (group.first_slot + s) + k] =
+            mesh->local_neighbor(group.point(s, k), topology.opposite(f, (first + k) % 3), f);
+    }
+}
+
+/* ----------------------------------------------------------------------
+   the triangle between three control points: lengths of its edges, its angles in degrees, and by
+   how many degrees its neighbours are bent from its plane. All as maxima: minima have their sign
+   reversed
+------------------------------------------------------------------------- */
+
+void ComputeMembraneShape::measure_quality(const FaceGroup &group, int s, double *extremes) const
+{
+  auto normal = [this](int a, int b, int c, double *n) {
+    double ab[3], ac[3];
+    MathExtra::sub3(atom->x[b], atom->x[a], ab);
+    MathExtra::sub3(atom->x[c], atom->x[a], ac);
+    MathExtra::cross3(ab, ac, n);
+  };
+  auto raise = [extremes](int which, double value) {
+    extremes[which] = std::max(extremes[which], value);
+  };
+  double n[3], m[3], side[3];
+  normal(group.point(s, 0), group.point(s, 1), group.point(s, 2), n);
+  for (int k = 0; k < 3; ++k) {
+    const int a = group.point(s, k), b = group.point(s, (k + 1) % 3),
+              c = group.point(s, (k + 2) % 3);
+    double ab[3], ac[3];
+    MathExtra::sub3(atom->x[b], atom->x[a], ab);
+    MathExtra::sub3(atom->x[c], atom->x[a], ac);
+    raise(Extremes::SHORTEST, -MathExtra::len3(ab));
+    raise(Extremes::LONGEST, MathExtra::len3(ab));
+    raise(Extremes::ANGLE, -std::atan2(MathExtra::len3(n), MathExtra::dot3(ab, ac)) * RAD2DEG);
+
+    normal(b, a, beyond[3 * (size_t) (group.first_slot + s) + k], m);
+    MathExtra::cross3(n, m, side);
+    raise(Extremes::FOLD, std::atan2(MathExtra::len3(side), MathExtra::dot3(n, m)) * RAD2DEG);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeMembraneShape::measure()
+{
+  mesh = &DistributedMesh::of(lmp, "Compute membrane/shape");
+  if (mesh->generation() == 0)
+    error->all(FLERR,
+               "Compute {} membrane/shape: atoms were replaced since the last run: use run 0", id);
+  mesh->refresh();
+  if (mesh->generation() != generation) choose_membranes();
+  if (epoch != mesh->epoch()) localize();
+
+  const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
+  totals.measure(groups, model, integrals, true);
+  totals.place_origins(groups, model);
+  for (const FaceGroup &group : groups) curvature_integrals(group, x, model, curvature);
+
+  const size_t n = mesh->molecules().size();
+  std::vector<double> my_sums(n * Sums::WIDTH, 0.0), all_sums(my_sums.size());
+  std::vector<double> my_extremes(n * Extremes::WIDTH, -HUGE_VAL), all_extremes(my_extremes.size());
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nfaces; ++s) {
+      const int slot = group.first_slot + s;
+      const int m = mesh->membrane(totals.component_of(group, s));
+      double *sums = &my_sums[(size_t) m * Sums::WIDTH];
+      sums[Sums::MEAN] += curvature.mean[slot];
+      sums[Sums::WILLMORE] += curvature.willmore[slot];
+      for (int k = 0; k < 3; ++k) sums[Sums::MOMENT + k] += curvature.moment[3 * (size_t) slot + k];
+      measure_quality(group, s, &my_extremes[(size_t) m * Extremes::WIDTH]);
+    }
+  MPI_Allreduce(my_sums.data(), all_sums.data(), my_sums.size(), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(my_extremes.data(), all_extremes.data(), my_extremes.size(), MPI_DOUBLE, MPI_MAX,
+                world);
+
+  // moments are about the centres of components
+
+  std::vector<int> euler(n, 0);
+  for (int c = 0; c < mesh->topology().num_components(); ++c) {
+    const auto &part = totals.components()[c];
+    const int m = mesh->membrane(c);
+    euler[m] += mesh->topology().euler_characteristic(c);
+    for (int k = 0; k < 3; ++k)
+      all_sums[(size_t) m * Sums::WIDTH + Sums::MOMENT + k] += part.area * part.centre[k];
+  }
+
+  for (int i = 0; i < size_array_rows; ++i) {
+    const int m = members[i];
+    const auto &membrane = totals.membranes()[m];
+    const double *sums = &all_sums[(size_t) m * Sums::WIDTH];
+    const double *extremes = &all_extremes[(size_t) m * Extremes::WIDTH];
+    double *row = array[i];
+    row[AREA] = membrane.area;
+    row[VOLUME] = mesh->is_closed_membrane(m) ? membrane.volume : 0.0;
+    row[REDUCED_VOLUME] = row[VOLUME] * 6.0 * std::sqrt(MY_PI) / std::pow(row[AREA], 1.5);
+    row[MEAN_CURVATURE] = sums[Sums::MEAN];
+    row[WILLMORE] = sums[Sums::WILLMORE];
+    row[EULER] = euler[m];
+    row[SHORTEST_EDGE] = -extremes[Extremes::SHORTEST];
+    row[LONGEST_EDGE] = extremes[Extremes::LONGEST];
+    row[SMALLEST_ANGLE] = -extremes[Extremes::ANGLE];
+    row[LARGEST_FOLD] = extremes[Extremes::FOLD];
+    for (int k = 0; k < 3; ++k) row[CENTRE + k] = sums[Sums::MOMENT + k] / row[AREA];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeMembraneShape::compute_array()
+{
+  invoked_array = update->ntimestep;
+  measure();
+}
+
+/* ----------------------------------------------------------------------
+   all membranes together: sums, worst elements, mean reduced volume of those that have a volume,
+   centre of the whole area
+------------------------------------------------------------------------- */
+
+void ComputeMembraneShape::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  measure();
+
+  std::fill_n(vector, NCOLUMNS, 0.0);
+  int nclosed = 0;
+  for (int i = 0; i < size_array_rows; ++i) {
+    const double *row = array[i];
+    for (int k : {AREA, VOLUME, REDUCED_VOLUME, MEAN_CURVATURE, WILLMORE, EULER})
+      vector[k] += row[k];
+    for (int k : {SHORTEST_EDGE, SMALLEST_ANGLE})
+      vector[k] = i == 0 ? row[k] : std::min(vector[k], row[k]);
+    for (int k : {LONGEST_EDGE, LARGEST_FOLD}) vector[k] = std::max(vector[k], row[k]);
+    for (int k = CENTRE; k < NCOLUMNS; ++k) vector[k] += row[AREA] * row[k];
+    nclosed += mesh->is_closed_membrane(members[i]);
+  }
+  if (nclosed) vector[REDUCED_VOLUME] /= nclosed;
+  if (size_array_rows)
+    for (int k = CENTRE; k < NCOLUMNS; ++k) vector[k] /= vector[AREA];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeMembraneShape::memory_usage()
+{
+  double bytes = sizeof(double) * ((double) size_array_rows + 1.0) * NCOLUMNS;
+  for (const FaceGroup &group : groups)
+    bytes += sizeof(int) * (group.points.capacity() + group.face.capacity());
+  bytes += sizeof(int) * beyond.capacity();
+  bytes += sizeof(double) * 18.0 * count_slots(groups);
+  return bytes + rules.memory_usage();
+}

@@ -1,0 +1,524 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "dump_membrane_image.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "image.h"
+#include "memory.h"
+#include "output.h"
+#include "platform.h"
+#include "region.h"
+#include "thermo.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+using Membrane_NS::Camera;
+using Membrane_NS::Corner;
+using Membrane_NS::Face;
+using Membrane_NS::FaceTessellation;
+using Membrane_NS::Fragment;
+using Membrane_NS::LimitPoint;
+using Membrane_NS::StencilPoints;
+using Membrane_NS::Topology;
+using Membrane_NS::TriangleMesh;
+
+static constexpr int SURFACE_MAP = 1;             // Image's map for grid cells, which are not drawn
+static constexpr double TRIANGLE_PIXELS = 4.0;    // side of a triangle; shading varies within it
+static constexpr int FINEST = 64;
+
+// lights that add up to one: colors stay what they are where the surface faces the light
+static constexpr double AMBIENT_LIGHT = 0.4, KEY_LIGHT = 0.45, FILL_LIGHT = 0.25;
+
+static constexpr double WIDTH = 2.5;          // of the range of colors, in standard deviations
+static constexpr double LEAST_WIDTH = 0.5;    // and at least this part of the mean
+
+/* ----------------------------------------------------------------------
+   defaults that suit a surface go before the user's settings; DumpCustom accepts these for a style
+   named image only
+------------------------------------------------------------------------- */
+
+static std::vector<char *> with_defaults(int narg, char **arg)
+{
+  static constexpr int REQUIRED = 7;    // ID group style N file color diameter
+  static const char *const defaults[] = {"fsaa", "yes",   "zoom",  "1.25", "box",
+                                         "yes",  "0.004", "shiny", "0.3"};
+  std::vector<char *> args(arg, arg + narg);
+  args[2] = const_cast<char *>("image");
+  if (narg >= REQUIRED)
+    for (int i = sizeof(defaults) / sizeof(*defaults) - 1; i >= 0; --i)
+      args.insert(args.begin() + REQUIRED, const_cast<char *>(defaults[i]));
+  return args;
+}
+
+DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, int narg, char **arg) :
+    DumpMembraneImage(lmp, with_defaults(narg, arg))
+{
+}
+
+DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, std::vector<char *> args) :
+    DumpImage(lmp, static_cast<int>(args.size()), args.data()), coloring(Coloring::MEAN_CURVATURE),
+    draw_points(false), draw_whole(true), own_map(false), auto_range(true), lo(0.0), hi(1.0),
+    range_told(false), subdivide(0), mesh(DistributedMesh::of(lmp, "Dump membrane/image"))
+{
+  delete[] style;
+  style = utils::strdup("membrane/image");
+
+  if (gridflag) error->all(FLERR, "Dump membrane/image does not draw grid cells: use dump image");
+  for (size_t i = ioptional; i + 1 < args.size(); ++i)
+    if (strcmp(args[i], "bond") == 0 && utils::strmatch(args[i + 1], "^c_"))
+      error->all(FLERR,
+                 "Dump membrane/image does not color bonds by a compute: use dump image for these");
+  if (utils::strmatch(filename, "\\.(tga|TGA)(\\.\\w+)?$"))
+    error->all(FLERR, "Dump membrane/image writes JPEG, PNG and PPM files, not {}", filename);
+
+  for (int &component : image->background) component = 255;
+  for (int k = 0; k < 3; ++k) {
+    image->ambientColor[k] = AMBIENT_LIGHT;
+    image->keyLightColor[k] = KEY_LIGHT;
+    image->fillLightColor[k] = FILL_LIGHT;
+  }
+  image->boxcolor = image->color2rgb("gray");
+  set_camera();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DumpMembraneImage::init_style()
+{
+  // write_dump allows a name without * for dump image only
+
+  if (strcmp(id, "WRITE_DUMP") == 0) multifile_override = 1;
+  DumpImage::init_style();
+}
+
+/* ---------------------------------------------------------------------- */
+
+int DumpMembraneImage::modify_param(int narg, char **arg)
+{
+  const std::string key = arg[0];
+  auto need = [&](int n) {
+    if (narg < n + 1) utils::missing_cmd_args(FLERR, "dump_modify " + key, error);
+  };
+
+  if (key == "surface") {
+    need(1);
+    const std::string what = arg[1];
+    if (what == "H")
+      coloring = Coloring::MEAN_CURVATURE;
+    else if (what == "K")
+      coloring = Coloring::GAUSSIAN_CURVATURE;
+    else if (what == "type")
+      coloring = Coloring::TYPE;
+    else if (what == "molecule")
+      coloring = Coloring::MOLECULE;
+    else
+      error->all(FLERR, "dump_modify surface {} is not one of H, K, type, molecule", what);
+    range_told = false;
+    return 2;
+  }
+  if (key == "range") {
+    need(1);
+    range_told = false;
+    auto_range = strcmp(arg[1], "auto") == 0;
+    if (auto_range) return 2;
+    need(2);
+    lo = utils::numeric(FLERR, arg[1], false, lmp);
+    hi = utils::numeric(FLERR, arg[2], false, lmp);
+    if (!(lo < hi))
+      error->all(FLERR, "dump_modify range {} {}: the second value must be the larger", arg[1],
+                 arg[2]);
+    return 3;
+  }
+  if (key == "subdivide") {
+    need(1);
+    subdivide = 0;
+    if (strcmp(arg[1], "auto") != 0) {
+      subdivide = utils::inumeric(FLERR, arg[1], false, lmp);
+      if (subdivide < 1 || subdivide > FaceTessellation::MOST)
+        error->all(FLERR, "dump_modify subdivide {} must be auto or between 1 and {}", arg[1],
+                   (int) FaceTessellation::MOST);
+    }
+    return 2;
+  }
+  if (key == "points") {
+    need(1);
+    draw_points = utils::logical(FLERR, arg[1], false, lmp);
+    return 2;
+  }
+  if (key == "whole") {
+    need(1);
+    draw_whole = utils::logical(FLERR, arg[1], false, lmp);
+    return 2;
+  }
+  if (key == "smap") {
+
+    // the syntax is that of amap and gmap
+
+    std::vector<char *> args(arg, arg + narg);
+    char gmap[] = "gmap";
+    args[0] = gmap;
+    own_map = true;
+    return DumpImage::modify_param(narg, args.data());
+  }
+  return DumpImage::modify_param(narg, arg);
+}
+
+/* ----------------------------------------------------------------------
+   atoms to draw as spheres
+------------------------------------------------------------------------- */
+
+int DumpMembraneImage::count()
+{
+  DumpImage::count();
+  if (draw_points) return nchoose;
+  int kept = 0;
+  for (int k = 0; k < nchoose; ++k) {
+    const int i = clist[k];
+    choose[i] = mesh.vertex(atom->tag[i]) < 0;
+    if (choose[i]) clist[kept++] = i;
+  }
+  return nchoose = kept;
+}
+
+/* ----------------------------------------------------------------------
+   as DumpImage::write(), plus the surface
+------------------------------------------------------------------------- */
+
+void DumpMembraneImage::write()
+{
+  mesh.update();
+  openfile();
+
+  box_bounds();
+  if (cflag) box_center();
+  if (viewflag) {
+    view_params();
+    set_camera();
+  }
+
+  nme = count();
+  if (nme > maxbuf) {
+    maxbuf = nme;
+    memory->destroy(buf);
+    memory->create(buf, maxbuf * size_one, "dump:buf");
+  }
+  pack(nullptr);
+
+  if (image->map_dynamic(0)) {
+    double mine[2] = {-HUGE_VAL, -HUGE_VAL}, all[2];
+    for (int i = 0; i < nchoose; ++i) {
+      mine[0] = MAX(mine[0], -buf[i * size_one]);
+      mine[1] = MAX(mine[1], buf[i * size_one]);
+    }
+    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+    if (-all[0] <= all[1] && image->map_minmax(0, -all[0], all[1]))
+      error->all(FLERR, "Invalid atom color map min/max values");
+  }
+
+  image->clear();
+  create_image();
+  draw_surface();
+  image->merge();
+  if (me == 0) write_picture();
+}
+
+// newer LAMMPS has a file pointer that closes the file when it is set
+
+template <typename Pointer> static void close_file(Pointer &fp, int /*compressed*/)
+{
+  fp = nullptr;
+}
+
+static void close_file(FILE *&fp, int compressed)
+{
+  if (compressed)
+    platform::pclose(fp);
+  else
+    fclose(fp);
+  fp = nullptr;
+}
+
+void DumpMembraneImage::write_picture()
+{
+  if (filetype == JPG)
+    image->write_JPG(fp);
+  else if (filetype == PNG)
+    image->write_PNG(fp);
+  else
+    image->write_PPM(fp);
+  if (!multifile) return;
+  close_file(fp, compressed);
+  output->thermo->set_image_fname(utils::star_subst(filename, update->ntimestep, padflag));
+}
+
+/* ----------------------------------------------------------------------
+   where Image::view_params() put the camera
+------------------------------------------------------------------------- */
+
+void DumpMembraneImage::set_camera()
+{
+  camera = Membrane_NS::camera_from(image->theta, image->phi, Vector3d(image->up));
+  camera.width = image->width;
+  camera.height = image->height;
+  const double longest = MAX(boxxhi - boxxlo, MAX(boxyhi - boxylo, boxzhi - boxzlo));
+  camera.pixel = 2.0 * longest / image->height / image->zoom;
+}
+
+/* ----------------------------------------------------------------------
+   what there is to draw
+------------------------------------------------------------------------- */
+
+struct DumpMembraneImage::Scene {
+  TriangleMesh control;
+  std::vector<int> type;                     // of each vertex; 0 if it is not in the group
+  std::vector<int> faces;                    // for this rank to draw
+  std::vector<std::array<bool, 3>> wraps;    // directions in which a component is cut at the box
+  std::vector<LimitPoint> points;
+};
+
+// closed components near the box, or cut at it, as everything that continues through it
+
+void DumpMembraneImage::place(Scene &scene) const
+{
+  const Topology &topology = mesh.topology();
+  TriangleMesh &control = scene.control;
+  control = mesh.triangle_mesh();
+  scene.wraps = continuing_directions(topology, control);
+  if (!control.is_periodic()) return;
+
+  std::vector<Vector3d> centre(topology.num_components(), Vector3d::Zero());
+  for (int v = 0; v < topology.num_vertices(); ++v) {
+    const int c = topology.component(v);
+    centre[c] += control.points[v] / topology.num_vertices(c);
+  }
+  const Eigen::Matrix3d inverse = control.lattice.inverse();
+  for (int c = 0; c < topology.num_components(); ++c) {
+    const Vector3d fraction = inverse * (centre[c] - Vector3d(domain->boxlo));
+    centre[c].setZero();
+    for (int k = 0; k < 3; ++k) {
+      if (!control.periodic[k] || scene.wraps[c][k]) continue;
+      if (draw_whole)
+        centre[c] -= std::floor(fraction[k]) * control.lattice.col(k);
+      else
+        scene.wraps[c][k] = true;
+    }
+  }
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    control.points[v] += centre[topology.component(v)];
+}
+
+void DumpMembraneImage::read_vertices(Scene &scene) const
+{
+  const Topology &topology = mesh.topology();
+  std::vector<int> mine(topology.num_vertices(), 0);
+  scene.type.resize(mine.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh.vertex(atom->tag[i]);
+    if (v >= 0 && (atom->mask[i] & groupbit)) mine[v] = atom->type[i];
+  }
+  MPI_Allreduce(mine.data(), scene.type.data(), mine.size(), MPI_INT, MPI_MAX, world);
+
+  // every rank has the whole mesh: deal the faces out evenly
+
+  int next = 0;
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    const Face &face = topology.face(f);
+    if (scene.type[face[0]] && scene.type[face[1]] && scene.type[face[2]] &&
+        next++ % comm->nprocs == comm->me)
+      scene.faces.push_back(f);
+  }
+}
+
+static Membrane_NS::Valences valences(const Topology &topology, int f)
+{
+  const Face &face = topology.face(f);
+  return {topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])};
+}
+
+double DumpMembraneImage::value(const LimitPoint &point) const
+{
+  return coloring == Coloring::GAUSSIAN_CURVATURE ? point.gaussian_curvature : point.mean_curvature;
+}
+
+/* ----------------------------------------------------------------------
+   colors around the mean over the surface: a few sharp bends do not use them all up
+------------------------------------------------------------------------- */
+
+void DumpMembraneImage::choose_range(Scene &scene)
+{
+  const bool curvature = coloring == Coloring::MEAN_CURVATURE ||
+      coloring == Coloring::GAUSSIAN_CURVATURE;
+  if (!curvature) return;
+
+  if (auto_range) {
+    FaceTessellation coarse(2);
+    StencilPoints stencil;
+    double mine[3] = {0.0, 0.0, 0.0}, all[3];    // area, and integrals of the value and its square
+    for (int f : scene.faces) {
+      stencil_points(mesh.topology(), scene.control, f, stencil);
+      coarse.evaluate(valences(mesh.topology(), f), stencil, scene.points);
+      for (const Face &t : coarse.triangles()) {
+        const LimitPoint &a = scene.points[t[0]], &b = scene.points[t[1]], &c = scene.points[t[2]];
+        const double area = 0.5 * (b.position - a.position).cross(c.position - a.position).norm();
+        if (!std::isfinite(area + value(a) + value(b) + value(c))) continue;
+        mine[0] += area;
+        for (const LimitPoint *p : {&a, &b, &c}) {
+          mine[1] += area / 3.0 * value(*p);
+          mine[2] += area / 3.0 * value(*p) * value(*p);
+        }
+      }
+    }
+    MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
+    if (all[0] == 0.0) return;
+    const double mean = all[1] / all[0];
+    const double deviation = std::sqrt(MAX(0.0, all[2] / all[0] - mean * mean));
+    double width = MAX(WIDTH * deviation, LEAST_WIDTH * std::fabs(mean));
+    if (width == 0.0) width = 1.0;
+    lo = mean - width;
+    hi = mean + width;
+  }
+
+  if (own_map && image->map_dynamic(SURFACE_MAP) && image->map_minmax(SURFACE_MAP, lo, hi))
+    error->all(FLERR, "dump_modify smap has values outside the range {:.6g} to {:.6g}", lo, hi);
+  if (me == 0 && !range_told && !(own_map && !image->map_dynamic(SURFACE_MAP)))
+    utils::logmesg(lmp, "Dump {} colors membranes by {} curvature from {:.6g} to {:.6g}\n", id,
+                   coloring == Coloring::MEAN_CURVATURE ? "mean" : "Gaussian", lo, hi);
+  range_told = true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+Vector3d DumpMembraneImage::color(const Scene &scene, int f, const LimitPoint &point, int p) const
+{
+  const Face &face = mesh.topology().face(f);
+  switch (coloring) {
+    case Coloring::MOLECULE:
+      return Membrane_NS::distinct_color(mesh.membrane(mesh.topology().component(face[0])));
+    case Coloring::TYPE:
+      return Vector3d(colortype[scene.type[face[tessellation->nearest_corner(p)]]]);
+    default:
+      if (own_map) return Vector3d(image->map_value2color(SURFACE_MAP, value(point)));
+      return Membrane_NS::diverging_color((value(point) - lo) / (hi - lo));
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DumpMembraneImage::draw_surface()
+{
+  Scene scene;
+  place(scene);
+  read_vertices(scene);
+  choose_range(scene);
+
+  int n = subdivide;
+  if (n == 0) {
+    const double sides = std::ceil(mesh.longest_edge() / (TRIANGLE_PIXELS * camera.pixel));
+    n = static_cast<int>(MIN(MAX(sides, 2.0), FINEST));
+  }
+  if (!tessellation || tessellation->subdivision() != n)
+    tessellation = std::make_unique<FaceTessellation>(n);
+
+  Region *region = idregion ? domain->get_region_by_id(idregion) : nullptr;
+  if (region) region->prematch();
+  camera.centre = {image->xctr, image->yctr, image->zctr};
+
+  const TriangleMesh &control = scene.control;
+  StencilPoints stencil;
+  std::vector<Corner> corners;
+  for (int f : scene.faces) {
+    stencil_points(mesh.topology(), control, f, stencil);
+    tessellation->evaluate(valences(mesh.topology(), f), stencil, scene.points);
+    corners.clear();
+    for (const LimitPoint &point : scene.points)
+      corners.push_back(
+          {point.position, point.normal, color(scene, f, point, static_cast<int>(corners.size()))});
+
+    const auto &wraps = scene.wraps[mesh.topology().component(mesh.topology().face(f)[0])];
+    for (const Face &t : tessellation->triangles())
+      draw_triangle({corners[t[0]], corners[t[1]], corners[t[2]]}, wraps, region);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   all images of a triangle that are in the box, cut off at its sides
+------------------------------------------------------------------------- */
+
+void DumpMembraneImage::draw_triangle(const std::array<Corner, 3> &triangle,
+                                      const std::array<bool, 3> &wraps, Region *region) const
+{
+  const double *h = domain->h, *inv = domain->h_inv;
+  auto fractions = [&](const Vector3d &r) {
+    const double d[3] = {r[0] - domain->boxlo[0], r[1] - domain->boxlo[1], r[2] - domain->boxlo[2]};
+    return Vector3d(inv[0] * d[0] + inv[5] * d[1] + inv[4] * d[2], inv[1] * d[1] + inv[3] * d[2],
+                    inv[2] * d[2]);
+  };
+  int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
+  Vector3d low = fractions(triangle[0].position), high = low;
+  for (int c = 1; c < 3; ++c) {
+    const Vector3d s = fractions(triangle[c].position);
+    low = low.cwiseMin(s);
+    high = high.cwiseMax(s);
+  }
+  for (int k = 0; k < 3; ++k)
+    if (wraps[k]) {
+      first[k] = static_cast<int>(std::floor(low[k]));
+      last[k] = static_cast<int>(std::floor(high[k]));
+    }
+
+  for (int i = first[0]; i <= last[0]; ++i)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int k = first[2]; k <= last[2]; ++k) {
+        const Vector3d shift(h[0] * i + h[5] * j + h[4] * k, h[1] * j + h[3] * k, h[2] * k);
+        std::array<Corner, 3> moved = triangle;
+        for (Corner &corner : moved) corner.position -= shift;
+        rasterize(camera, moved, [&](const Fragment &fragment) {
+          const Vector3d &r = fragment.position, s = fractions(r);
+          for (int m = 0; m < 3; ++m)
+            if (last[m] > first[m] && (s[m] < 0.0 || s[m] > 1.0)) return;
+          if (!region || region->match(r[0], r[1], r[2])) draw_pixel(fragment);
+        });
+      }
+}
+
+/* ----------------------------------------------------------------------
+   a triangle about one pixel's centre and no other's, in the tangent plane. The first corner is
+   lower left of the centre since Image measures the pixels to draw from there
+------------------------------------------------------------------------- */
+
+void DumpMembraneImage::draw_pixel(const Fragment &fragment) const
+{
+  static constexpr double NEAR = -0.5, FAR = 1.3;
+  const Vector3d &n = fragment.normal;
+  auto corner = [&](double x, double y) -> Vector3d {
+    const Vector3d in_picture = camera.pixel * (x * camera.right + y * camera.up);
+    return fragment.position + in_picture -
+        n.dot(in_picture) / n.dot(camera.toward) * camera.toward;
+  };
+  Vector3d a = corner(NEAR, NEAR), b = corner(NEAR, FAR), c = corner(FAR, NEAR);
+  Vector3d rgb = fragment.color;
+  image->draw_triangle(a.data(), b.data(), c.data(), rgb.data());
+}

@@ -1,0 +1,92 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_hd_nve.h"
+
+#include "error.h"
+#include "respa.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixHDNVE::FixHDNVE(LAMMPS *lmp, int narg, char **arg) :
+    FixHDBase(lmp, narg, arg), dtv(0.0), dtf(0.0)
+{
+  dynamic_group_allow = 0;
+  int iarg = 3;
+  while (iarg < narg) {
+    const int used = parse_mass_keyword(iarg, narg, arg);
+    if (!used)
+      error->all(FLERR, "Unknown fix hd/nve keyword {}; known are: mass, solver, tol", arg[iarg]);
+    iarg += used;
+  }
+}
+
+int FixHDNVE::setmask()
+{
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | INITIAL_INTEGRATE_RESPA | FINAL_INTEGRATE_RESPA;
+}
+
+void FixHDNVE::init()
+{
+  FixHDBase::init();
+  reset_dt();
+}
+
+void FixHDNVE::reset_dt()
+{
+  dtv = update->dt;
+  dtf = 0.5 * update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   the acceleration of the last final_integrate (or setup) is still that of x
+------------------------------------------------------------------------- */
+
+void FixHDNVE::initial_integrate(int)
+{
+  kick(dtf);
+  drift(dtv);
+}
+
+void FixHDNVE::final_integrate()
+{
+  accelerate();
+  kick(dtf);
+}
+
+/* ----------------------------------------------------------------------
+   with r-RESPA each level has forces of its own
+------------------------------------------------------------------------- */
+
+void FixHDNVE::initial_integrate_respa(int, int ilevel, int)
+{
+  const double *step = dynamic_cast<Respa *>(update->integrate)->step;
+  accelerate();
+  kick(0.5 * step[ilevel]);
+  if (ilevel == 0) drift(step[0]);
+}
+
+void FixHDNVE::final_integrate_respa(int ilevel, int)
+{
+  const double *step = dynamic_cast<Respa *>(update->integrate)->step;
+  accelerate();
+  kick(0.5 * step[ilevel]);
+}

@@ -1,0 +1,112 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+#include "membrane_curvature.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+using namespace Membrane_NS;
+using Eigen::Vector3d;
+
+static constexpr double TWO_PI = 6.283185307179586476925;
+
+/* ----------------------------------------------------------------------
+   the second fundamental form has the sign that makes the curvatures of a sphere positive
+------------------------------------------------------------------------- */
+
+LimitPoint Membrane_NS::limit_point(const LimitValues &values)
+{
+  const Vector3d ru = values.row(LimitBasis::DU), rv = values.row(LimitBasis::DV);
+  const Vector3d cross = ru.cross(rv);
+  LimitPoint point;
+  point.position = values.row(LimitBasis::VALUE);
+  point.normal = cross.normalized();
+
+  const double E = ru.dot(ru), F = ru.dot(rv), G = rv.dot(rv), det = cross.squaredNorm();
+  const double L = -values.row(LimitBasis::DUU).dot(point.normal);
+  const double M = -values.row(LimitBasis::DUV).dot(point.normal);
+  const double N = -values.row(LimitBasis::DVV).dot(point.normal);
+  point.mean_curvature = (E * N - 2.0 * F * M + G * L) / (2.0 * det);
+  point.gaussian_curvature = (L * N - M * M) / det;
+  return point;
+}
+
+/* ----------------------------------------------------------------------
+   Tangent masks: the left eigenvectors of the subdominant eigenvalue [H. Hoppe et al., Piecewise
+   Smooth Surface Reconstruction, SIGGRAPH 1994]. At a corner of a regular face only the vertex and
+   its ring have weight; they are the first columns of the stencil, in the order of the ring.
+------------------------------------------------------------------------- */
+
+LimitBasis::Weights Membrane_NS::vertex_weights(int n)
+{
+  if (n == 6) return box_spline(0.0, 0.0).leftCols(7);
+
+  LimitBasis::Weights w = LimitBasis::Weights::Zero(LimitBasis::ROWS, n + 1);
+  const double centre = limit_mask_centre(n);
+  w(LimitBasis::VALUE, 0) = centre;
+  for (int i = 0; i < n; ++i) {
+    w(LimitBasis::VALUE, 1 + i) = (1.0 - centre) / n;
+    w(LimitBasis::DU, 1 + i) = std::cos(TWO_PI * i / n);
+    w(LimitBasis::DV, 1 + i) = std::sin(TWO_PI * i / n);
+  }
+  return w;
+}
+
+LimitBasis::Weights Membrane_NS::corner_weights(const Valences &valences)
+{
+  return LimitBasis(valences).evaluate(0.0, 0.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CurvatureIntegrals::resize(int nslots)
+{
+  mean.resize(nslots);
+  willmore.resize(nslots);
+  moment.resize(3 * static_cast<size_t>(nslots));
+}
+
+void Membrane_NS::curvature_integrals(const FaceGroup &group, const double (*x)[3],
+                                      const FaceModel &model, CurvatureIntegrals &out)
+{
+  const PatchRule &rule = *group.rule;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> control(rule.size, 3);
+  for (int s = 0; s < group.nfaces; ++s) {
+    const int slot = group.first_slot + s;
+    const Vector3d origin(&model.origin[3 * static_cast<size_t>(slot)]);
+    for (int k = 0; k < rule.size; ++k)
+      control.row(k) = Eigen::Map<const Vector3d>(x[group.point(s, k)]) - origin;
+
+    double mean = 0.0, willmore = 0.0;
+    Vector3d moment = Vector3d::Zero();
+    for (int q = 0; q < rule.npoints; ++q) {
+      const Eigen::Map<const LimitBasis::Weights> weights(rule.row(q, 0), LimitBasis::ROWS,
+                                                          rule.size);
+      LimitValues values = LimitValues::Zero();
+      for (int k = 0; k < rule.size; ++k) values += weights.col(k) * control.row(k);
+      const LimitPoint point = limit_point(values);
+      const Vector3d ru = values.row(LimitBasis::DU), rv = values.row(LimitBasis::DV);
+      const double area = rule.weight[q] * ru.cross(rv).norm(), H = point.mean_curvature;
+      mean += area * H;
+      willmore += 2.0 * area * H * H;
+      moment += area * point.position;
+    }
+    out.mean[slot] = mean;
+    out.willmore[slot] = willmore;
+    for (int k = 0; k < 3; ++k) out.moment[3 * static_cast<size_t>(slot) + k] = moment[k];
+  }
+}

@@ -1,0 +1,424 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_mass.h"
+
+#include "membrane_limit_basis.h"
+#include "membrane_quadrature.h"
+#include "membrane_random.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+using namespace Membrane_NS;
+
+/* ---------------------------------------------------------------------- */
+
+void VertexPart::gather(const VertexField &owned_values, VertexField &all)
+{
+  for (int i = 0; i < owned; ++i) all[vertices[i]] = owned_values[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
+MassOperator::MassOperator(const Topology &topology, VertexPart &part,
+                           const std::vector<double> &masses, const std::vector<uint64_t> &labels,
+                           const Settings &settings) :
+    settings_(settings), part_(part)
+{
+  for (int i = 0; i < part.owned; ++i) {
+    mass_.push_back(masses[part.vertices[i]]);
+    label_.push_back(labels[part.vertices[i]]);
+  }
+  if (settings.kind == MassKind::VERTEX) build_rings(topology);
+  if (settings.kind == MassKind::CONSISTENT) build_rows(topology, masses, labels);
+}
+
+// local numbers of the vertices of a part
+
+static std::unordered_map<int, int> local_numbers(const VertexPart &part)
+{
+  std::unordered_map<int, int> local;
+  local.reserve(2 * part.size());
+  for (int i = 0; i < part.size(); ++i) local.emplace(part.vertices[i], i);
+  return local;
+}
+
+/* ----------------------------------------------------------------------
+   VERTEX
+------------------------------------------------------------------------- */
+
+void MassOperator::build_rings(const Topology &topology)
+{
+  const auto local = local_numbers(part_);
+  ring_start_.assign(1, 0);
+  for (int i = 0; i < part_.size(); ++i) {
+    const int v = part_.vertices[i], n = topology.valence(v);
+    centre_.push_back(limit_mask_centre(n));
+    spoke_.push_back((1.0 - centre_.back()) / n);
+    if (i >= part_.owned) continue;
+    for (int w : topology.ring(v)) ring_.push_back(local.at(w));
+    ring_start_.push_back(static_cast<int>(ring_.size()));
+  }
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    lowest_ = std::min(lowest_, 0.5 * (3.0 * limit_mask_centre(topology.valence(v)) - 1.0));
+
+  // Chebyshev's error bound: 2 rate^k
+
+  const double root = std::sqrt(lowest_), rate = (1.0 - root) / (1.0 + root);
+  passes_ = std::max(1, (int) std::ceil(std::log(0.5 * settings_.tolerance) / std::log(rate)));
+}
+
+// y = L x on owned vertices
+
+void MassOperator::apply_mask(VertexField &x, VertexField &y)
+{
+  part_.fill_halo(x);
+  for (int i = 0; i < part_.owned; ++i) {
+    Vector4 sum = {};
+    for (int j = ring_start_[i]; j < ring_start_[i + 1]; ++j)
+      for (int k = 0; k < 4; ++k) sum.c[k] += x[ring_[j]].c[k];
+    for (int k = 0; k < 4; ++k) y[i].c[k] = centre_[i] * x[i].c[k] + spoke_[i] * sum.c[k];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Chebyshev iteration for L x = b [Y. Saad, Iterative Methods for Sparse Linear Systems, alg. 12.1],
+   one pass over the mesh per iteration: residual, solution and next step together
+------------------------------------------------------------------------- */
+
+void MassOperator::solve_mask(const VertexField &b, VertexField &x)
+{
+  const double theta = 0.5 * (1.0 + lowest_), delta = 0.5 * (1.0 - lowest_);
+  const double sigma = theta / delta;
+  double rho = 1.0 / sigma;
+  for (auto *field : {&residual_, &step_, &next_}) field->resize(part_.size());
+
+  for (int i = 0; i < part_.owned; ++i)
+    for (int k = 0; k < 4; ++k) {
+      residual_[i].c[k] = b[i].c[k];
+      step_[i].c[k] = b[i].c[k] / theta;
+      x[i].c[k] = 0.0;
+    }
+  for (int pass = 0; pass < passes_; ++pass) {
+    part_.fill_halo(step_);
+    const double rho_next = 1.0 / (2.0 * sigma - rho);
+    const double keep = rho_next * rho, add = 2.0 * rho_next / delta;
+    rho = rho_next;
+    for (int i = 0; i < part_.owned; ++i) {
+      Vector4 sum = {};
+      for (int j = ring_start_[i]; j < ring_start_[i + 1]; ++j)
+        for (int k = 0; k < 4; ++k) sum.c[k] += step_[ring_[j]].c[k];
+      for (int k = 0; k < 4; ++k) {
+        const double d = step_[i].c[k];
+        x[i].c[k] += d;
+        residual_[i].c[k] -= centre_[i] * d + spoke_[i] * sum.c[k];
+        next_[i].c[k] = keep * d + add * residual_[i].c[k];
+      }
+    }
+    std::swap(step_, next_);
+  }
+  iterations_ = passes_;
+}
+
+/* ----------------------------------------------------------------------
+   CONSISTENT: the matrix of a face of unit mass, by a rule that is exact for it
+------------------------------------------------------------------------- */
+
+// integral over the face's own parameters of phi_k phi_l, times 2; recursion over the children
+static Eigen::MatrixXd face_matrix(const Valences &valences)
+{
+  const LimitBasis basis(valences);
+  if (basis.is_regular()) {
+    const TriangleRule rule = triangle_rule(Quadrature::CAREFUL);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(12, 12);
+    for (int q = 0; q < rule.size(); ++q) {
+      const Eigen::VectorXd w =
+          box_spline(rule.u[q], rule.v[q]).row(LimitBasis::VALUE).transpose();
+      matrix += 2.0 * rule.weight[q] * w * w.transpose();
+    }
+    return matrix;
+  }
+
+  // a corner child that is its own parent's kind: sum the series A^T X A/4 until nothing is left
+
+  const Eigen::MatrixXd regular = face_matrix({6, 6, 6});
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(basis.size(), basis.size());
+  int self = -1;
+  for (int child = 0; child < 4; ++child) {
+    const Valences inner = basis.child_valences(child);
+    const Eigen::MatrixXd s = basis.child_matrix(child);
+    if (inner == valences) {
+      self = child;
+      continue;
+    }
+    const Eigen::MatrixXd part = inner == Valences{6, 6, 6} ? regular : face_matrix(inner);
+    matrix += 0.25 * s.transpose() * part * s;
+  }
+  if (self < 0) return matrix;
+  const Eigen::MatrixXd a = basis.child_matrix(self);
+  Eigen::MatrixXd term = matrix;
+  for (int level = 0; level < 60; ++level) {
+    term = (0.25 * a.transpose() * term * a).eval();
+    matrix += term;
+  }
+  return matrix;
+}
+
+// B with B B^T = matrix, for positive semi-definite matrices too
+static Eigen::MatrixXd square_root(const Eigen::MatrixXd &matrix)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+void MassOperator::build_rows(const Topology &topology, const std::vector<double> &masses,
+                              const std::vector<uint64_t> &labels)
+{
+  const auto local = local_numbers(part_);
+  std::map<Valences, Eigen::MatrixXd> matrices;
+  std::vector<Eigen::Triplet<double>> entries, all;
+  std::vector<int> stencil;
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    topology.stencil(f, stencil);
+    FaceNoise noise;
+    for (size_t k = 0; k < stencil.size(); ++k) {
+      const auto found = local.find(stencil[k]);
+      if (found != local.end() && found->second < part_.owned)
+        noise.owned.emplace_back(found->second, k);
+    }
+    if (noise.owned.empty() && !settings_.direct) continue;
+
+    Valences valences;
+    double mass = 0.0;
+    noise.label = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int v = topology.face(f)[k];
+      valences[k] = topology.valence(v);
+      mass += masses[v] / valences[k];
+      noise.label = noise.label * 0x9E3779B97F4A7C15ULL + labels[v];
+    }
+    auto found = matrices.find(valences);
+    if (found == matrices.end()) {
+      found = matrices.emplace(valences, face_matrix(valences)).first;
+      roots_[valences] = square_root(found->second);
+    }
+    noise.amplitude = std::sqrt(mass);
+    noise.root = &roots_[valences];
+    for (auto [i, k] : noise.owned)
+      for (size_t l = 0; l < stencil.size(); ++l)
+        entries.emplace_back(i, local.at(stencil[l]), mass * found->second(k, l));
+    if (settings_.direct)
+      for (size_t k = 0; k < stencil.size(); ++k)
+        for (size_t l = 0; l < stencil.size(); ++l)
+          all.emplace_back(stencil[k], stencil[l], mass * found->second(k, l));
+    if (!noise.owned.empty()) noise_.push_back(std::move(noise));
+  }
+
+  rows_.resize(part_.owned, part_.size());
+  rows_.setFromTriplets(entries.begin(), entries.end());
+  for (int i = 0; i < part_.owned; ++i) diagonal_.push_back(rows_.coeff(i, i));
+  if (!settings_.direct) return;
+  Eigen::SparseMatrix<double> matrix(topology.num_vertices(), topology.num_vertices());
+  matrix.setFromTriplets(all.begin(), all.end());
+  factor_ = std::make_unique<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>(matrix);
+}
+
+void MassOperator::solve_direct(const VertexField &p, VertexField &v)
+{
+  const int n = static_cast<int>(factor_->rows());
+  VertexField all(n);
+  part_.gather(p, all);
+  Eigen::Matrix<double, Eigen::Dynamic, 3> b(n, 3);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) b(i, k) = all[i].c[k];
+  b = factor_->solve(b).eval();
+  for (int i = 0; i < part_.owned; ++i)
+    for (int k = 0; k < 3; ++k) v[i].c[k] = b(part_.vertices[i], k);
+  iterations_ = 1;
+}
+
+/* ----------------------------------------------------------------------
+   preconditioned conjugate gradients, x, y and z at once with inner products of their own
+------------------------------------------------------------------------- */
+
+void MassOperator::conjugate_gradients(const VertexField &p, VertexField &v)
+{
+  constexpr int MOST = 1000;
+  const int n = part_.owned;
+  VertexField r(p.begin(), p.begin() + n), d(part_.size()), q(n);
+  double rz[4] = {}, norm[4] = {}, rz_next[4], dq[4];
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 4; ++k) {
+      v[i].c[k] = 0.0;
+      d[i].c[k] = r[i].c[k] / diagonal_[i];
+      rz[k] += r[i].c[k] * d[i].c[k];
+    }
+  part_.sum(rz, 4);
+  std::copy_n(rz, 4, norm);
+
+  for (iterations_ = 0; iterations_ < MOST; ++iterations_) {
+    bool done = true;
+    for (int k = 0; k < 3; ++k)
+      done = done && rz[k] <= settings_.tolerance * settings_.tolerance * norm[k];
+    if (done) break;
+    multiply(d, q);
+    std::fill_n(dq, 4, 0.0);
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < 4; ++k) dq[k] += d[i].c[k] * q[i].c[k];
+    part_.sum(dq, 4);
+    std::fill_n(rz_next, 4, 0.0);
+    double alpha[4], beta[4];
+    for (int k = 0; k < 4; ++k) alpha[k] = dq[k] > 0.0 ? rz[k] / dq[k] : 0.0;
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < 4; ++k) {
+        v[i].c[k] += alpha[k] * d[i].c[k];
+        r[i].c[k] -= alpha[k] * q[i].c[k];
+        rz_next[k] += r[i].c[k] * r[i].c[k] / diagonal_[i];
+      }
+    part_.sum(rz_next, 4);
+    for (int k = 0; k < 4; ++k) {
+      beta[k] = rz[k] > 0.0 ? rz_next[k] / rz[k] : 0.0;
+      rz[k] = rz_next[k];
+    }
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < 4; ++k) d[i].c[k] = r[i].c[k] / diagonal_[i] + beta[k] * d[i].c[k];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MassOperator::multiply(const VertexField &v, VertexField &p)
+{
+  const int n = part_.owned;
+  work_.resize(part_.size());
+  if (settings_.kind == MassKind::LUMPED) {
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < 4; ++k) p[i].c[k] = mass_[i] * v[i].c[k];
+    return;
+  }
+  std::copy_n(v.begin(), n, work_.begin());
+  if (settings_.kind == MassKind::CONSISTENT) {
+    part_.fill_halo(work_);
+    for (int i = 0; i < n; ++i) {
+      Vector4 sum = {};
+      for (decltype(rows_)::InnerIterator entry(rows_, i); entry; ++entry)
+        for (int k = 0; k < 4; ++k) sum.c[k] += entry.value() * work_[entry.col()].c[k];
+      p[i] = sum;
+    }
+    return;
+  }
+
+  // L^T D L v, with L^T x = (1/e) L (e x)
+
+  VertexField momentum(part_.size());
+  apply_mask(work_, momentum);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 4; ++k) momentum[i].c[k] *= mass_[i] * spoke_[i];
+  apply_mask(momentum, p);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 4; ++k) p[i].c[k] /= spoke_[i];
+}
+
+void MassOperator::solve(const VertexField &p, VertexField &v)
+{
+  const int n = part_.owned;
+  switch (settings_.kind) {
+    case MassKind::LUMPED:
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 4; ++k) v[i].c[k] = p[i].c[k] / mass_[i];
+      iterations_ = 1;
+      return;
+    case MassKind::CONSISTENT:
+      if (factor_) return solve_direct(p, v);
+      return conjugate_gradients(p, v);
+    case MassKind::VERTEX:
+      // L^-T p = (1/e) L^-1 (e p), then L^-1 D^-1
+
+      work_.resize(part_.size());
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 4; ++k) work_[i].c[k] = spoke_[i] * p[i].c[k];
+      solve_mask(work_, v);
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 4; ++k) work_[i].c[k] = v[i].c[k] / (spoke_[i] * mass_[i]);
+      solve_mask(work_, v);
+      iterations_ = 2 * passes_;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MassOperator::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
+{
+  const CounterRandom random(seed, step);
+  const int n = part_.owned;
+  const double root = std::sqrt(kT);
+  VertexField z(part_.size(), Vector4{});
+
+  if (settings_.kind == MassKind::CONSISTENT) {
+    std::vector<std::array<double, 4>> normal;
+    for (const FaceNoise &face : noise_) {
+      const int columns = static_cast<int>(face.root->cols());
+      normal.resize(columns);
+      for (int j = 0; j < columns; ++j) normal[j] = random.normals(face.label, j);
+      for (auto [i, row] : face.owned)
+        for (int j = 0; j < columns; ++j)
+          for (int k = 0; k < 3; ++k)
+            z[i].c[k] += root * face.amplitude * (*face.root)(row, j) * normal[j][k];
+    }
+    solve(z, v);
+    return;
+  }
+
+  for (int i = 0; i < n; ++i) {
+    const auto normal = random.normals(label_[i]);
+    for (int k = 0; k < 3; ++k) z[i].c[k] = root / std::sqrt(mass_[i]) * normal[k];
+  }
+  if (settings_.kind == MassKind::VERTEX) {
+    solve_mask(z, v);
+    return;
+  }
+  std::copy_n(z.begin(), n, v.begin());
+}
+
+/* ---------------------------------------------------------------------- */
+
+double MassOperator::residual(const VertexField &p, const VertexField &v)
+{
+  VertexField product(part_.size());
+  multiply(v, product);
+  double sums[2] = {0.0, 0.0};
+  for (int i = 0; i < part_.owned; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double d = p[i].c[k] - product[i].c[k];
+      sums[0] += d * d;
+      sums[1] += p[i].c[k] * p[i].c[k];
+    }
+  part_.sum(sums, 2);
+  return sums[1] > 0.0 ? std::sqrt(sums[0] / sums[1]) : std::sqrt(sums[0]);
+}
+
+double MassOperator::memory_usage() const
+{
+  return sizeof(Vector4) * (residual_.capacity() + step_.capacity() + next_.capacity() +
+                            work_.capacity()) +
+      sizeof(int) * (ring_.capacity() + ring_start_.capacity()) +
+      12.0 * rows_.nonZeros();
+}

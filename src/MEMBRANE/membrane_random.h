@@ -1,0 +1,77 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_RANDOM_H
+#define LMP_MEMBRANE_RANDOM_H
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace Membrane_NS {
+
+/** Random numbers as a function of what they are for, instead of a sequence: Philox4x32-10
+    [J. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC11]. The same seed, step and
+    label give the same numbers on any number of ranks and after any restart. */
+class CounterRandom {
+ public:
+  CounterRandom(uint64_t seed, uint64_t step) :
+      key_{static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)}, step_(step)
+  {
+  }
+
+  /// Four independent standard normal numbers for a label; block 0, 1, ... gives further ones.
+  std::array<double, 4> normals(uint64_t label, uint32_t block = 0) const
+  {
+    const auto a = uniforms(label, 2 * block), b = uniforms(label, 2 * block + 1);
+    const double r = std::sqrt(-2.0 * std::log(a[0])), s = std::sqrt(-2.0 * std::log(b[0]));
+    constexpr double TWO_PI = 6.283185307179586476925;
+    return {r * std::cos(TWO_PI * a[1]), r * std::sin(TWO_PI * a[1]), s * std::cos(TWO_PI * b[1]),
+            s * std::sin(TWO_PI * b[1])};
+  }
+
+  /// Two independent numbers uniform in (0, 1), of 53 bits. Steps count modulo 2^48.
+  std::array<double, 2> uniforms(uint64_t label, uint32_t block) const
+  {
+    const auto word = philox({static_cast<uint32_t>(label), static_cast<uint32_t>(label >> 32),
+                              static_cast<uint32_t>(step_),
+                              static_cast<uint32_t>(step_ >> 32) << 16 ^ block},
+                             key_);
+    auto unit = [](uint32_t hi, uint32_t lo) {
+      const uint64_t bits = (static_cast<uint64_t>(hi) << 32 | lo) >> 11;
+      return (static_cast<double>(bits) + 0.5) * 0x1.0p-53;
+    };
+    return {unit(word[0], word[1]), unit(word[2], word[3])};
+  }
+
+  /// The bare generator: ten rounds on a counter of four words with a key of two.
+  static std::array<uint32_t, 4> philox(std::array<uint32_t, 4> c, std::array<uint32_t, 2> k)
+  {
+    for (int round = 0; round < 10; ++round) {
+      const uint64_t p0 = 0xD2511F53ULL * c[0], p1 = 0xCD9E8D57ULL * c[2];
+      c = {static_cast<uint32_t>(p1 >> 32) ^ c[1] ^ k[0], static_cast<uint32_t>(p1),
+           static_cast<uint32_t>(p0 >> 32) ^ c[3] ^ k[1], static_cast<uint32_t>(p0)};
+      k[0] += 0x9E3779B9U;
+      k[1] += 0xBB67AE85U;
+    }
+    return c;
+  }
+
+ private:
+  std::array<uint32_t, 2> key_;
+  uint64_t step_;
+};
+
+}    // namespace Membrane_NS
+
+#endif

@@ -1,0 +1,126 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+#include "mesh_totals.h"
+
+#include "atom.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using Membrane_NS::FaceGroup;
+using Membrane_NS::FaceIntegrals;
+using Membrane_NS::FaceModel;
+
+/* ---------------------------------------------------------------------- */
+
+MeshTotals::MeshTotals(LAMMPS *lmp) : Pointers(lmp) {}
+
+/* ---------------------------------------------------------------------- */
+
+void MeshTotals::reset(const DistributedMesh &of)
+{
+  mesh = &of;
+  const auto &topology = mesh->topology();
+  parts.assign(topology.num_components(), Total());
+  for (int v = 0; v < topology.num_vertices(); ++v) {
+    const int c = topology.component(v);
+    for (int k = 0; k < 3; ++k)
+      parts[c].centre[k] += mesh->unwrapped()[3 * (size_t) v + k] / topology.num_vertices(c);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int MeshTotals::component_of(const FaceGroup &group, int s) const
+{
+  const auto &topology = mesh->topology();
+  return topology.component(topology.face(group.face[std::min(s, group.nfaces - 1)])[0]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &model) const
+{
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nslots(); ++s) {
+      const int face = group.face[std::min(s, group.nfaces - 1)];
+      const int owner = atom->map(mesh->tag(mesh->topology().face(face)[0]));
+      const Total &total = parts[component_of(group, s)];
+      double unwrapped[3];
+      domain->unmap(atom->x[owner], atom->image[owner], unwrapped);
+      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
+      for (int k = 0; k < 3; ++k) origin[k] = total.centre[k] - (unwrapped[k] - atom->x[owner][k]);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
+                         FaceIntegrals &integrals, bool with_volume)
+{
+  const int nslots = count_slots(groups);
+  integrals.area.resize(nslots);
+  integrals.volume.resize(with_volume ? nslots : 0);
+  integrals.vector_area.resize(with_volume ? 3 * (size_t) nslots : 0);
+
+  const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
+  if (with_volume) place_origins(groups, model);
+  for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
+
+  constexpr int WIDTH = 8;
+  const int n = parts.size();
+  std::vector<double> mine((size_t) n * WIDTH, 0.0), all(mine.size());
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nfaces; ++s) {
+      const int slot = group.first_slot + s;
+      double *sum = &mine[component_of(group, s) * WIDTH];
+      sum[0] += integrals.area[slot];
+      if (!with_volume) continue;
+      sum[1] += integrals.volume[slot];
+      for (int k = 0; k < 3; ++k) sum[2 + k] += integrals.vector_area[3 * (size_t) slot + k];
+    }
+  if (with_volume)
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const int v = mesh->vertex_of_atom(i);
+      if (v < 0) continue;
+      double unwrapped[3];
+      domain->unmap(atom->x[i], atom->image[i], unwrapped);
+      double *sum = &mine[mesh->topology().component(v) * WIDTH];
+      for (int k = 0; k < 3; ++k) sum[5 + k] += unwrapped[k];
+    }
+  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
+
+  wholes.assign(mesh->molecules().size(), Total());
+  for (int c = 0; c < n; ++c) {
+    const double *sum = &all[c * WIDTH];
+    Total &total = parts[c];
+    Total &membrane = wholes[mesh->membrane(c)];
+    total.area = sum[0];
+    membrane.area += total.area;
+    if (!with_volume) continue;
+    total.volume = sum[1];
+    for (int k = 0; k < 3; ++k) {
+      const double centre = sum[5 + k] / mesh->topology().num_vertices(c);
+      total.vector_area[k] = sum[2 + k];
+      total.volume -= (centre - total.centre[k]) * sum[2 + k] / 3.0;
+      total.centre[k] = centre;
+    }
+    if (mesh->is_closed(c)) membrane.volume += total.volume;
+  }
+}

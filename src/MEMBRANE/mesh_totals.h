@@ -1,0 +1,62 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MESH_TOTALS_H
+#define LMP_MESH_TOTALS_H
+
+#include "membrane_helfrich.h"
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/** Areas and enclosed volumes of all membranes, summed over the ranks.
+
+    V = (1/3) sum weight (r - centre).n dA, with the centre of the component's control points: the
+    quadrature of n dA over a closed surface vanishes only to its own accuracy, and measuring from
+    the centre keeps V, and so total momentum, exactly independent of where the membrane is. */
+class MeshTotals : protected Pointers {
+ public:
+  /// Sums over a connected component of the mesh, or what they give for a membrane.
+  struct Total {
+    double area = 0.0, volume = 0.0;
+    double vector_area[3] = {0.0, 0.0, 0.0};    ///< components only
+    double centre[3] = {0.0, 0.0, 0.0};         ///< components only; unwrapped
+  };
+
+  explicit MeshTotals(LAMMPS *);
+
+  /// Call after DistributedMesh::update() and before what follows.
+  void reset(const class DistributedMesh &);
+
+  /** Collective. Areas, and volumes if wanted, of the faces of these groups, of their components
+      and of their membranes. A membrane's volume is that of its closed components. */
+  void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
+               Membrane_NS::FaceIntegrals &, bool with_volume);
+  const std::vector<Total> &components() const { return parts; }
+  const std::vector<Total> &membranes() const { return wholes; }
+
+  /// Set the model's origins to the centres, moved to the periodic image each face is in.
+  void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;
+  /// The connected component of the face in a slot of a group.
+  int component_of(const Membrane_NS::FaceGroup &, int slot) const;
+
+ private:
+  const class DistributedMesh *mesh = nullptr;
+  std::vector<Total> parts, wholes;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

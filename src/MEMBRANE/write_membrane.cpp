@@ -1,0 +1,241 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "write_membrane.h"
+
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "membrane_tessellation.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Membrane_NS::Face;
+using Membrane_NS::FaceTessellation;
+using Membrane_NS::MeshError;
+using Membrane_NS::TessellatedSurface;
+using Membrane_NS::Topology;
+using Membrane_NS::TriangleMesh;
+
+/* ---------------------------------------------------------------------- */
+
+WriteMembrane::WriteMembrane(LAMMPS *lmp) :
+    Command(lmp), format(Format::VTP), subdivide(4), fields(true)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WriteMembrane::command(int narg, char **arg)
+{
+  DistributedMesh &mesh = DistributedMesh::of(lmp, "write_membrane");
+  parse(narg, arg);
+
+  // collective, and it leaves atoms and ghosts as they are: the next run does not notice
+
+  mesh.update();
+  if (mesh.topology().num_faces() == 0)
+    error->all(FLERR, "write_membrane finds no membrane: use create_membrane or read_data");
+  for (tagint molecule : chosen)
+    if (std::find(mesh.molecules().begin(), mesh.molecules().end(), molecule) ==
+        mesh.molecules().end())
+      error->all(
+          FLERR, "write_membrane membrane {} does not exist; there are {} membranes, {} to {}",
+          molecule, mesh.molecules().size(), mesh.molecules().front(), mesh.molecules().back());
+
+  // every rank has the whole mesh: one writes, all fail together
+
+  std::string message;
+  bigint size[2] = {0, 0};
+  if (comm->me == 0) {
+    try {
+      const Surface what = surface(mesh);
+      size[0] = what.mesh.points.size();
+      size[1] = what.mesh.faces.size();
+      write(what);
+    } catch (const MeshError &err) {
+      message = err.what();
+    } catch (const std::bad_alloc &) {
+      message = "not enough memory; use a smaller subdivide";
+    }
+  }
+  int length = message.size();
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  message.resize(length);
+  MPI_Bcast(message.data(), length, MPI_CHAR, 0, world);
+  if (!message.empty()) error->all(FLERR, "write_membrane: {}", message);
+
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Wrote {} of the membrane to {}: {} points, {} triangles\n",
+                   subdivide == 0 ? "the control mesh" : "the limit surface", path, size[0],
+                   size[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WriteMembrane::parse(int narg, char **arg)
+{
+  if (narg < 1) utils::missing_cmd_args(FLERR, "write_membrane", error);
+  path = utils::star_subst(arg[0], update->ntimestep, 0);
+  parse_format();
+
+  for (int iarg = 1; iarg < narg; iarg += 2) {
+    const std::string key = arg[iarg];
+    if (key != "subdivide" && key != "membrane" && key != "fields")
+      error->all(FLERR, "Unknown write_membrane keyword {}; known are: subdivide, membrane, fields",
+                 key);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "write_membrane " + key, error);
+
+    if (key == "subdivide") {
+      subdivide = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (subdivide < 0 || subdivide > FaceTessellation::MOST)
+        error->all(FLERR, "write_membrane subdivide {} must be between 0 and {}", arg[iarg + 1],
+                   (int) FaceTessellation::MOST);
+    } else if (key == "membrane") {
+      chosen.push_back(utils::tnumeric(FLERR, arg[iarg + 1], false, lmp));
+    } else {
+      fields = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      if (fields && format == Format::OFF)
+        error->all(FLERR,
+                   "write_membrane: a file in OFF format has no place for fields; use the "
+                   "extension ply or vtp");
+    }
+  }
+}
+
+void WriteMembrane::parse_format()
+{
+  const size_t dot = path.find_last_of("./");
+  const std::string extension =
+      dot == std::string::npos || path[dot] == '/' ? "" : utils::lowercase(path.substr(dot + 1));
+  if (extension == "off")
+    format = Format::OFF;
+  else if (extension == "ply")
+    format = Format::PLY;
+  else if (extension == "vtp")
+    format = Format::VTP;
+  else
+    error->all(FLERR,
+               "write_membrane file {} must have the extension off, ply or vtp, which names the "
+               "format",
+               path);
+}
+
+/* ----------------------------------------------------------------------
+   the chosen membranes, with vertices in the order of atom IDs; labels are their molecule IDs
+------------------------------------------------------------------------- */
+
+TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh,
+                                         std::vector<double> &labels) const
+{
+  const Topology &topology = mesh.topology();
+  const TriangleMesh all = mesh.triangle_mesh();
+  TriangleMesh part;
+  part.lattice = all.lattice;
+  part.periodic = all.periodic;
+  std::vector<int> number(topology.num_vertices(), -1);
+  for (int v = 0; v < topology.num_vertices(); ++v) {
+    const tagint molecule = mesh.molecule(topology.component(v));
+    if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), molecule) == chosen.end())
+      continue;
+    number[v] = part.points.size();
+    part.points.push_back(all.points[v]);
+    labels.push_back(molecule);
+  }
+  for (const Face &face : all.faces)
+    if (number[face[0]] >= 0)
+      part.faces.push_back({number[face[0]], number[face[1]], number[face[2]]});
+  return part;
+}
+
+/* ---------------------------------------------------------------------- */
+
+WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
+{
+  std::vector<double> labels;
+  const TriangleMesh control = control_mesh(mesh, labels);
+  const Topology topology(control.points.size(), control.faces);
+
+  // n = 1 has the vertices and faces of the control mesh, and its curvatures are those of the limit
+  // surface at the control points
+
+  const int n = MAX(1, subdivide);
+  const double triangles = double(topology.num_faces()) * n * n;
+  if (triangles > MAXSMALLINT)
+    throw MeshError(fmt::format("{:.3g} triangles are more than a file takes; use a smaller "
+                                "subdivide",
+                                triangles));
+  TessellatedSurface cut = Membrane_NS::tessellate(topology, control, n);
+  if (subdivide == 0) cut.mesh.points = control.points;
+
+  // what continues through the box is written within it
+
+  const auto continues = continuing_directions(topology, control);
+  const Eigen::Matrix3d inverse = control.lattice.inverse();
+  const Eigen::Vector3d origin(domain->boxlo);
+  std::vector<double> membrane;
+  for (size_t p = 0; p < cut.mesh.points.size(); ++p) {
+    const int v = p < control.points.size() ? p : topology.face(cut.face[p])[0];
+    const Eigen::Vector3d fraction = inverse * (cut.mesh.points[p] - origin);
+    for (int k = 0; k < 3; ++k)
+      if (continues[topology.component(v)][k])
+        cut.mesh.points[p] -= std::floor(fraction[k]) * control.lattice.col(k);
+    membrane.push_back(labels[v]);
+  }
+
+  Surface what;
+  what.mesh = std::move(cut.mesh);
+  if (fields && format != Format::OFF)
+    what.fields = {{"mean_curvature", std::move(cut.mean_curvature)},
+                   {"gaussian_curvature", std::move(cut.gaussian_curvature)},
+                   {"membrane", std::move(membrane)}};
+
+  // a surface is to look at; the faces of a control mesh are to find their images in the box again
+
+  if (subdivide > 0) {
+    Membrane_NS::MeshDrawing drawing = Membrane_NS::cut_open(what.mesh);
+    what.mesh = std::move(drawing.mesh);
+    what.mesh.periodic = {false, false, false};
+    for (auto &field : what.fields) {
+      std::vector<double> values;
+      for (int p : drawing.source) values.push_back(field.second[p]);
+      field.second = std::move(values);
+    }
+  }
+  return what;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WriteMembrane::write(const Surface &what) const
+{
+  switch (format) {
+    case Format::OFF:
+      Membrane_NS::write_off(path, what.mesh);
+      break;
+    case Format::PLY:
+      Membrane_NS::write_ply(path, what.mesh, what.fields);
+      break;
+    case Format::VTP:
+      Membrane_NS::write_vtp(path, what.mesh, what.fields);
+      break;
+  }
+}

@@ -1,0 +1,61 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef COMMAND_CLASS
+// clang-format off
+CommandStyle(write_membrane,WriteMembrane);
+// clang-format on
+#else
+
+#ifndef LMP_WRITE_MEMBRANE_H
+#define LMP_WRITE_MEMBRANE_H
+
+#include "command.h"
+#include "membrane_mesh_writer.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Writes the limit surface, or the control mesh, of the membranes to a mesh file.
+class WriteMembrane : public Command {
+ public:
+  WriteMembrane(class LAMMPS *);
+  void command(int, char **) override;
+
+ private:
+  std::string path;
+  enum class Format { OFF, PLY, VTP } format;
+  int subdivide;
+  bool fields;
+  std::vector<tagint> chosen;    // molecule IDs; all membranes if empty
+
+  // what goes into the file
+  struct Surface {
+    Membrane_NS::TriangleMesh mesh;
+    Membrane_NS::PointFields fields;
+  };
+
+  void parse(int, char **);
+  void parse_format();
+  Membrane_NS::TriangleMesh control_mesh(const class DistributedMesh &,
+                                         std::vector<double> &labels) const;
+  Surface surface(const DistributedMesh &) const;
+  void write(const Surface &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
