@@ -79,6 +79,7 @@ void CreateMembrane::command(int narg, char **arg)
     for (auto &p : mesh.points)
       for (int k = 0; k < 3; ++k) p[k] = scale[k] * p[k] + (centred ? centre[k] : 0.0);
 
+    check_edges(mesh);
     Membrane_NS::Topology(mesh.points.size(), mesh.faces);
     if (interpolated) mesh = Membrane_NS::interpolate(mesh);
     for (int i = 0; i < refine; ++i) mesh = Membrane_NS::loop_refine(mesh);
@@ -237,18 +238,40 @@ void CreateMembrane::read_file(const char *path, TriangleMesh &mesh)
 
 void CreateMembrane::check_inside_box(const TriangleMesh &mesh)
 {
+  const double *lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
+  const double *hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
+  constexpr int FIXED = 1;
   for (const auto &p : mesh.points) {
     double s[3] = {p[0], p[1], p[2]};
     if (domain->triclinic) domain->x2lamda(s, s);
-    const double *lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-    const double *hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
     for (int k = 0; k < 3; ++k)
-      if (!domain->periodicity[k] && domain->boundary[k][0] == 0 && (s[k] < lo[k] || s[k] > hi[k]))
+      if ((domain->boundary[k][0] == FIXED && s[k] < lo[k]) ||
+          (domain->boundary[k][1] == FIXED && s[k] > hi[k]))
         error->all(FLERR,
                    "create_membrane {}: control point ({:.6g}, {:.6g}, {:.6g}) is outside the box, "
                    "which is not periodic in {}; enlarge the box or use scale and center",
                    shape, p[0], p[1], p[2], "xyz"[k]);
   }
+}
+
+/* ----------------------------------------------------------------------
+   from here on an edge is the shortest of its periodic images: must be what was meant
+------------------------------------------------------------------------- */
+
+void CreateMembrane::check_edges(const TriangleMesh &mesh)
+{
+  if (shape != "sphere" && shape != "torus") return;
+  const Eigen::Matrix3d inverse = mesh.lattice.inverse();
+  for (const Face &face : mesh.faces)
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d s = inverse * (mesh.points[face[(i + 1) % 3]] - mesh.points[face[i]]);
+      for (int k = 0; k < 3; ++k)
+        if (domain->periodicity[k] && std::fabs(s[k]) > 0.45)
+          error->all(FLERR,
+                     "create_membrane {}: an edge spans half the periodic box in {}; use a larger "
+                     "box or a finer mesh",
+                     shape, "xyz"[k]);
+    }
 }
 
 /* ----------------------------------------------------------------------

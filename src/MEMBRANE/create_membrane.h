@@ -45,6 +45,7 @@ class CreateMembrane : public Command {
   int parse_shape(int, char **, Membrane_NS::TriangleMesh &);
   void parse_options(int, char **);
   void read_file(const char *, Membrane_NS::TriangleMesh &);
+  void check_edges(const Membrane_NS::TriangleMesh &);
   void check_inside_box(const Membrane_NS::TriangleMesh &);
   void reserve_angles(int);
   void add_atoms(const Membrane_NS::TriangleMesh &);

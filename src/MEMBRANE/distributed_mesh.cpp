@@ -210,20 +210,11 @@ void DistributedMesh::rebuild(const AngleList &mine)
     error->all(FLERR, "Membrane mesh: {}", err.what());
   }
 
-  // membranes
+  // membranes; unwrap() checks that control points agree
 
-  component_molecule.assign(topo.num_components(), -1);
-  for (size_t f = 0; f < nfaces; ++f) {
-    tagint &molecule = component_molecule[topo.component(topo.face(f)[0])];
-    if (molecule < 0) molecule = records[f].molecule;
-    if (molecule != records[f].molecule) {
-      version = 0;
-      error->all(FLERR,
-                 "Membrane mesh: {} joins membranes {} and {}; control points of one connected "
-                 "surface must have one molecule ID: use set ... mol",
-                 labels.face(f), molecule, records[f].molecule);
-    }
-  }
+  component_molecule.resize(topo.num_components());
+  for (size_t f = 0; f < nfaces; ++f)
+    component_molecule[topo.component(topo.face(f)[0])] = records[f].molecule;
   membranes = component_molecule;
   std::sort(membranes.begin(), membranes.end());
   membranes.erase(std::unique(membranes.begin(), membranes.end()), membranes.end());
@@ -311,7 +302,7 @@ static std::array<int, 3> nearest_image(const Domain *domain, double *d)
 void DistributedMesh::unwrap()
 {
   struct Located {
-    tagint tag;
+    tagint tag, molecule;
     double x[3];
   };
   std::vector<Located> mine;
@@ -319,6 +310,7 @@ void DistributedMesh::unwrap()
     if (vertex(atom->tag[i]) < 0) continue;
     Located point;
     point.tag = atom->tag[i];
+    point.molecule = atom->molecule[i];
     domain->unmap(atom->x[i], atom->image[i], point.x);
     mine.push_back(point);
   }
@@ -326,8 +318,12 @@ void DistributedMesh::unwrap()
 
   const int n = topo.num_vertices();
   whole.assign(3 * (size_t) n, NAN);
-  for (const Located &point : all)
-    for (int k = 0; k < 3; ++k) whole[3 * vertex(point.tag) + k] = point.x[k];
+  std::vector<tagint> molecule(n, 0);
+  for (const Located &point : all) {
+    const int v = vertex(point.tag);
+    molecule[v] = point.molecule;
+    for (int k = 0; k < 3; ++k) whole[3 * v + k] = point.x[k];
+  }
   for (int v = 0; v < n; ++v)
     for (int k = 0; k < 3; ++k)
       if (!std::isfinite(whole[3 * v + k])) {
@@ -345,7 +341,13 @@ void DistributedMesh::unwrap()
     queue.assign(1, seed);
     for (size_t head = 0; head < queue.size(); ++head) {
       const int v = queue[head];
-      for (int w : topo.ring(v)) {
+      for (int i = 0; i < topo.valence(v); ++i) {
+        const int w = topo.ring(v)[i];
+        if (molecule[w] != molecule[v])
+          error->all(FLERR,
+                     "Membrane mesh: {} joins membranes {} and {}; control points of one connected "
+                     "surface must have one molecule ID: use set ... mol",
+                     face_name(topo.faces_around(v)[i]), molecule[v], molecule[w]);
         double d[3];
         for (int k = 0; k < 3; ++k) d[k] = whole[3 * w + k] - whole[3 * v + k];
         const auto moved = nearest_image(domain, d);
@@ -469,8 +471,9 @@ int DistributedMesh::local_neighbor(int i, int neighbor, int face)
   }
   error->one(FLERR,
              "Control point {}: {} needs control point {}, which is beyond the communication cutoff "
-             "{:.6g}; raise it with comm_modify cutoff",
-             atom->tag[i], face_name(face), tags[neighbor], comm->get_comm_cutoff());
+             "{:.6g}; raise it with comm_modify cutoff{}",
+             atom->tag[i], face_name(face), tags[neighbor], comm->get_comm_cutoff(),
+             domain->nonperiodic ? ", unless it left the box, which is not periodic" : "");
   return -1;
 }
 

@@ -15,14 +15,11 @@
 #define LMP_FIX_HD_BASE_H
 
 #include "fix.h"
-#include "mesh_part.h"
-
-#include <memory>
+#include "hd_mass.h"
 
 namespace LAMMPS_NS {
 
-/** What all integrators of control points share: the mass matrix and its keywords, the checks, and
-    M^-1 f. LAMMPS' x holds the control points q, v holds qdot. */
+/// What all integrators of control points share: the mass matrix, the checks, and M^-1 f.
 class FixHDBase : public Fix {
  public:
   FixHDBase(class LAMMPS *, int, char **);
@@ -31,30 +28,22 @@ class FixHDBase : public Fix {
   void setup(int) override;
   double memory_usage() override;
 
+  const Membrane_NS::MassOperator::Settings &mass_settings() const { return mass.settings; }
+
  protected:
-  Membrane_NS::MassOperator::Settings settings;
-  class DistributedMesh *mesh;
-  std::unique_ptr<MeshPart> part;
-  std::unique_ptr<Membrane_NS::MassOperator> mass;
-  bigint epoch;    // reneighbouring that part and mass are for
+  HDMass mass;
+  Membrane_NS::VertexField force_field, acceleration;
 
-  Membrane_NS::VertexField force, acceleration;
-
-  /// One of the keywords mass, solver, tol; returns the number of words it took, 0 if none of them.
-  int parse_mass_keyword(int iarg, int narg, char **arg);
-  /// Follow LAMMPS' reneighbouring; call before using part or mass in a step.
-  void refresh();
-  /// acceleration = ftm2v M^-1 f from the atoms' forces.
+  /// acceleration = M^-1 f from the atoms' forces.
   void accelerate();
-  /// v += step * acceleration
+  /// v += step * acceleration, in LAMMPS' units
   void kick(double step);
-  /// x += step * v, with a check that no control point runs away
+  /// x += step * v; stops if a control point runs away
   void drift(double step);
 
  private:
-  double most_drift;    // a fraction of an edge
+  double most_drift;
 
-  void check_group();
   void check_other_integrators();
 };
 

@@ -32,7 +32,7 @@ FixHDNVE::FixHDNVE(LAMMPS *lmp, int narg, char **arg) :
   dynamic_group_allow = 0;
   int iarg = 3;
   while (iarg < narg) {
-    const int used = parse_mass_keyword(iarg, narg, arg);
+    const int used = mass.parse(iarg, narg, arg);
     if (!used)
       error->all(FLERR, "Unknown fix hd/nve keyword {}; known are: mass, solver, tol", arg[iarg]);
     iarg += used;

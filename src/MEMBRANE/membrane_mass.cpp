@@ -237,6 +237,8 @@ void MassOperator::build_rows(const Topology &topology, const std::vector<double
   for (int i = 0; i < part_.owned; ++i) diagonal_.push_back(rows_.coeff(i, i));
   if (!settings_.direct) return;
   Eigen::SparseMatrix<double> matrix(topology.num_vertices(), topology.num_vertices());
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    if (masses[v] == 0.0) all.emplace_back(v, v, 1.0);    // not of this operator
   matrix.setFromTriplets(all.begin(), all.end());
   factor_ = std::make_unique<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>(matrix);
 }
@@ -396,6 +398,37 @@ void MassOperator::sample(double kT, uint64_t seed, uint64_t step, VertexField &
     return;
   }
   std::copy_n(z.begin(), n, v.begin());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MassOperator::relax(double keep, double kT, uint64_t seed, uint64_t step, VertexField &v)
+{
+  VertexField noise(part_.size());
+  sample((1.0 - keep * keep) * kT, seed, step, noise);
+  for (int i = 0; i < part_.owned; ++i)
+    for (int k = 0; k < 3; ++k) v[i].c[k] = keep * v[i].c[k] + noise[i].c[k];
+}
+
+void MassOperator::relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
+                         VertexField &v)
+{
+  const CounterRandom random(seed, step);
+  VertexField w(v);
+  w.resize(part_.size());
+  if (settings_.kind == MassKind::VERTEX) {
+    work_ = w;
+    apply_mask(work_, w);
+  }
+  for (int i = 0; i < part_.owned; ++i) {
+    const auto normal = random.normals(label_[i]);
+    const double spread = std::sqrt((1.0 - keep[i] * keep[i]) * kT / mass_[i]);
+    for (int k = 0; k < 3; ++k) w[i].c[k] = keep[i] * w[i].c[k] + spread * normal[k];
+  }
+  if (settings_.kind == MassKind::VERTEX)
+    solve_mask(w, v);
+  else
+    std::copy_n(w.begin(), part_.owned, v.begin());
 }
 
 /* ---------------------------------------------------------------------- */

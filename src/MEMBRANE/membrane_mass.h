@@ -98,6 +98,13 @@ class MassOperator {
       result does not depend on how vertices are shared among ranks. */
   void sample(double kT, uint64_t seed, uint64_t step, VertexField &v);
 
+  /** v = keep v + sqrt(1 - keep^2) times a sample: an exact step of friction and noise. With one
+      number for all vertices any mass will do; with one per owned vertex it acts on the velocities
+      of the masses, L v (VERTEX) or v (LUMPED). */
+  void relax(double keep, double kT, uint64_t seed, uint64_t step, VertexField &v);
+  void relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
+             VertexField &v);
+
   // === What a solve costs and gives
 
   /// Passes over the mesh of the last solve.

@@ -24,6 +24,7 @@
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -348,12 +349,12 @@ void PairHelfrich::take_references()
     if (c.volume_modulus != 0.0) {
       if (!c.volume_init) reference.volume = c.volume;
       if (reference.volume == 0.0) reference.volume = membranes[m].volume;
-      if (reference.volume <= 0.0)
-        error->all(FLERR,
-                   "Membrane {} encloses the volume {:.6g}: its faces are inside out; reverse the "
-                   "order of their corners",
-                   molecules[m], reference.volume);
     }
+    if (membrane_volume[m] && update->setupflag && membranes[m].volume <= 0.0)
+      error->all(FLERR,
+                 "Membrane {} encloses the volume {:.6g}: its faces are inside out; reverse the "
+                 "order of their corners",
+                 molecules[m], membranes[m].volume);
     if (c.local_area_modulus != 0.0 && reference.face_area.size() != membrane_faces[m].size())
       missing = true;
   }
@@ -514,6 +515,11 @@ void PairHelfrich::tally()
       const int slot = group.first_slot + s;
       if (eflag_either) {
         const double area = energies.area[slot];
+        if (!std::isfinite(area + energies.bending[slot] + energies.gauss[slot]))
+          error->one(FLERR,
+                     "Membrane mesh: the energy of {} is not a finite number: control points around "
+                     "it coincide or have flown apart; use a better mesh or a smaller timestep",
+                     mesh->face_name(group.face[s]));
         const int m = mesh->membrane(totals.component_of(group, s));
         double part[4] = {energies.bending[slot], energies.gauss[slot],
                           (base_tension[slot] + area_energy[m]) * area, volume_energy[m] * area};

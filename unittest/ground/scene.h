@@ -66,9 +66,9 @@ inline std::string scientific(double number)
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform() { return engine_() / 4294967296.0; }            ///< [0, 1)
-  double symmetric() { return 2.0 * uniform() - 1.0; }             ///< [-1, 1)
-  int below(int n) { return static_cast<int>(n * uniform()); }     ///< 0..n-1
+  double uniform() { return engine_() / 4294967296.0; }           ///< [0, 1)
+  double symmetric() { return 2.0 * uniform() - 1.0; }            ///< [-1, 1)
+  int below(int n) { return static_cast<int>(n * uniform()); }    ///< 0..n-1
   Vector3d vector()
   {
     const double x = symmetric(), y = symmetric(), z = symmetric();
@@ -86,16 +86,12 @@ inline Topology topology_of(const TriangleMesh &mesh)
   return Topology(static_cast<int>(mesh.points.size()), mesh.faces);
 }
 
-/// One of the reference meshes; the build says in which folder they are.
+/// One of the reference meshes; the environment says in which folder they are.
 inline TriangleMesh test_mesh(const std::string &name)
 {
-#ifdef MEMBRANE_TEST_MESHES
-  const std::string folder = MEMBRANE_TEST_MESHES;
-#else
-  const char *reference = std::getenv("REFERENCE");
-  const std::string folder = reference ? reference : ".";
-#endif
-  return read_mesh(folder + "/" + name + ".off");
+  const char *folder = std::getenv("REFERENCE");
+  if (!folder) throw MeshError("set REFERENCE to the folder of reference meshes");
+  return read_mesh(std::string(folder) + "/" + name + ".off");
 }
 
 inline TriangleMesh tetrahedron()
@@ -177,8 +173,8 @@ struct Totals {
   double bending = 0.0, gauss = 0.0, tension = 0.0, pressure = 0.0;    ///< energies
   double area = 0.0, volume = 0.0;
   Vector3d vector_area = Vector3d::Zero();
-  Points force;                                      ///< [vertices]
-  Eigen::Matrix<double, 6, 1> virial;                ///< xx yy zz xy xz yz of sum r f
+  Points force;                          ///< [vertices]
+  Eigen::Matrix<double, 6, 1> virial;    ///< xx yy zz xy xz yz of sum r f
   double energy() const { return bending + gauss + tension + pressure; }
 };
 
@@ -257,8 +253,7 @@ class Scene {
       }
     }
     sum.force.assign(topology_.num_vertices(), Vector3d::Zero());
-    for (size_t i = 0; i < nlocal; ++i)
-      sum.force[locals_[i].owner] += f[i];
+    for (size_t i = 0; i < nlocal; ++i) sum.force[locals_[i].owner] += f[i];
     return sum;
   }
 
@@ -312,8 +307,8 @@ class Scene {
     auto image_of = [&](int from, const Vector3d &image, int to) -> Vector3d {
       const Vector3d straight = mesh_.points[to] - mesh_.points[from];
       const Vector3d crossed = inverse * (mesh_.nearest_image(straight) - straight);
-      return image + Vector3d(std::round(crossed[0]), std::round(crossed[1]),
-                              std::round(crossed[2]));
+      return image +
+          Vector3d(std::round(crossed[0]), std::round(crossed[1]), std::round(crossed[2]));
     };
     auto local = [&](int v, const Vector3d &image) {
       if (image.isZero()) return v;
@@ -346,7 +341,9 @@ class Scene {
 /// f'(0) from f at +-h and +-h/2 by Richardson extrapolation; error O(h^4).
 template <class Function> double derivative(Function &&f, double h)
 {
-  auto central = [&](double s) { return (f(s) - f(-s)) / (2.0 * s); };
+  auto central = [&](double s) {
+    return (f(s) - f(-s)) / (2.0 * s);
+  };
   return (4.0 * central(0.5 * h) - central(h)) / 3.0;
 }
 

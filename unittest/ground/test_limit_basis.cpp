@@ -30,11 +30,11 @@ namespace {
 
 // valences that occur at the corners of one face; every neighbour of a vertex of valence 3 is one
 // of its neighbours' too, so two such corners occur only on a tetrahedron
-const Valences TRIPLES[] = {{6, 6, 6},  {3, 3, 3},  {3, 6, 6},  {6, 3, 6},  {6, 6, 3},   {4, 6, 6},
-                            {5, 6, 6},  {6, 7, 6},  {6, 6, 8},  {16, 6, 6}, {5, 5, 5},   {4, 4, 4},
-                            {3, 4, 4},  {4, 3, 4},  {4, 4, 3},  {3, 12, 7}, {12, 7, 3},  {7, 3, 12},
-                            {16, 4, 4}, {5, 6, 7},  {9, 10, 11}, {13, 14, 15}, {16, 16, 16},
-                            {20, 5, 3}, {3, 6, 4}};
+const Valences TRIPLES[] = {{6, 6, 6},   {3, 3, 3},    {3, 6, 6},    {6, 3, 6},  {6, 6, 3},
+                            {4, 6, 6},   {5, 6, 6},    {6, 7, 6},    {6, 6, 8},  {16, 6, 6},
+                            {5, 5, 5},   {4, 4, 4},    {3, 4, 4},    {4, 3, 4},  {4, 4, 3},
+                            {3, 12, 7},  {12, 7, 3},   {7, 3, 12},   {16, 4, 4}, {5, 6, 7},
+                            {9, 10, 11}, {13, 14, 15}, {16, 16, 16}, {20, 5, 3}, {3, 6, 4}};
 
 std::string text(const Valences &n)
 {
@@ -87,11 +87,13 @@ Weights from_differences(const std::function<Weights(double, double)> &basis, do
   };
   auto first = [&](double du, double dv) -> RowVectorXd {
     return (8.0 * (value(du, dv) - value(-du, -dv)) - value(2 * du, 2 * dv) +
-            value(-2 * du, -2 * dv)) / (12.0 * h);
+            value(-2 * du, -2 * dv)) /
+        (12.0 * h);
   };
   auto second = [&](double du, double dv) -> RowVectorXd {
     return (16.0 * (value(du, dv) + value(-du, -dv)) - value(2 * du, 2 * dv) -
-            value(-2 * du, -2 * dv) - 30.0 * value(0, 0)) / (12.0 * h * h);
+            value(-2 * du, -2 * dv) - 30.0 * value(0, 0)) /
+        (12.0 * h * h);
   };
   Weights w(LimitBasis::ROWS, value(0, 0).size());
   w.row(LimitBasis::VALUE) = value(0, 0);
@@ -104,8 +106,8 @@ Weights from_differences(const std::function<Weights(double, double)> &basis, do
 }
 
 // rows as rows of positions and derivatives
-Eigen::Matrix<double, LimitBasis::ROWS, 3> surface(const TriangleMesh &mesh, const Topology &topology,
-                                                   int face, int first, double u, double v)
+Eigen::Matrix<double, LimitBasis::ROWS, 3>
+surface(const TriangleMesh &mesh, const Topology &topology, int face, int first, double u, double v)
 {
   std::vector<int> points;
   topology.stencil(face, points, first);
@@ -120,9 +122,14 @@ Eigen::Matrix<double, LimitBasis::ROWS, 3> surface(const TriangleMesh &mesh, con
 // meshes that have extraordinary vertices of many kinds, also several on one face
 std::vector<TriangleMesh> closed_meshes()
 {
-  std::vector<TriangleMesh> meshes = {tetrahedron(), bipyramid(3), bipyramid(4), bipyramid(7),
-                                      bipyramid(12), icosphere(0, 1.0),
-                                      flipped(icosphere(1, 1.0), 40, 12, 1), torus(5, 6, 2.0, 0.7)};
+  std::vector<TriangleMesh> meshes = {tetrahedron(),
+                                      bipyramid(3),
+                                      bipyramid(4),
+                                      bipyramid(7),
+                                      bipyramid(12),
+                                      icosphere(0, 1.0),
+                                      flipped(icosphere(1, 1.0), 40, 12, 1),
+                                      torus(5, 6, 2.0, 0.7)};
   unsigned seed = 10;
   for (TriangleMesh &mesh : meshes) mesh = perturbed(mesh, 0.1, ++seed);
   return meshes;
@@ -148,7 +155,9 @@ TEST(BoxSpline, ReproducesLinearFunctions)
   for (const Vector2d &p : sample_points(50, 2)) {
     const double u = p[0], v = p[1];
     const Weights w = box_spline(u, v);
-    auto f = [](double x, double y) { return 3.0 + 2.0 * x - 5.0 * y; };
+    auto f = [](double x, double y) {
+      return 3.0 + 2.0 * x - 5.0 * y;
+    };
     EXPECT_NEAR(applied(w, LimitBasis::VALUE, f), f(u, v), 1e-13);
     EXPECT_NEAR(applied(w, LimitBasis::DU, f), 2.0, 1e-13);
     EXPECT_NEAR(applied(w, LimitBasis::DV, f), -5.0, 1e-13);
@@ -160,9 +169,15 @@ TEST(BoxSpline, ReproducesLinearFunctions)
 TEST(BoxSpline, ReproducesQuadraticFunctionsUpToAConstant)
 {
   // the squared distance on the equilateral lattice, one harmonic there, and one neither
-  auto round = [](double x, double y) { return x * x + x * y + y * y; };
-  auto product = [](double x, double y) { return x * y; };
-  auto saddle = [](double x, double y) { return x * x - y * y; };
+  auto round = [](double x, double y) {
+    return x * x + x * y + y * y;
+  };
+  auto product = [](double x, double y) {
+    return x * y;
+  };
+  auto saddle = [](double x, double y) {
+    return x * x - y * y;
+  };
   const double constant = applied(box_spline(0.0, 0.0), LimitBasis::VALUE, round);
   EXPECT_NEAR(constant, 0.5, 1e-14);    // six neighbours at 1/12 each
   for (const Vector2d &p : sample_points(50, 3)) {
@@ -184,8 +199,12 @@ TEST(BoxSpline, HasTheSecondDerivativesOfCubicFunctions)
 {
   for (const Vector2d &p : sample_points(50, 4)) {
     const Weights w = box_spline(p[0], p[1]);
-    auto cube = [](double x, double) { return x * x * x; };
-    auto mixed = [](double x, double y) { return x * x * y; };
+    auto cube = [](double x, double) {
+      return x * x * x;
+    };
+    auto mixed = [](double x, double y) {
+      return x * x * y;
+    };
     EXPECT_NEAR(applied(w, LimitBasis::DUU, cube), 6.0 * p[0], 1e-12);
     EXPECT_NEAR(applied(w, LimitBasis::DUV, cube), 0.0, 1e-12);
     EXPECT_NEAR(applied(w, LimitBasis::DUU, mixed), 2.0 * p[1], 1e-12);
@@ -305,11 +324,12 @@ TEST(LimitBasis, DerivativesAreThoseOfTheValue)
   double worst = 0.0;
   for (const Valences &n : TRIPLES) {
     const LimitBasis basis(n);
-    auto evaluate = [&](double u, double v) { return basis.evaluate(u, v); };
+    auto evaluate = [&](double u, double v) {
+      return basis.evaluate(u, v);
+    };
     for (const Vector2d &p : sample_points(20, 8)) {
       const Weights w = basis.evaluate(p[0], p[1]);
-      const double error =
-          (w - from_differences(evaluate, p[0], p[1])).cwiseAbs().maxCoeff();
+      const double error = (w - from_differences(evaluate, p[0], p[1])).cwiseAbs().maxCoeff();
       EXPECT_LT(error, 1e-8) << text(n) << " at " << p.transpose();
       worst = std::max(worst, error);
     }
@@ -371,8 +391,10 @@ TEST(LimitBasis, IsTwiceDifferentiableAcrossTheBordersOfItsChildren)
     const double step = 1e-9;
     for (double t = 0.03; t < 0.5; t += 0.0937)
       for (double level : {0.5, 0.25}) {
-        const std::pair<Vector2d, Vector2d> borders[] = {    // a point on a border, and across it
-            {{level, t * level}, {1, 0}}, {{t * level, level}, {0, 1}},
+        const std::pair<Vector2d, Vector2d> borders[] = {
+            // a point on a border, and across it
+            {{level, t * level}, {1, 0}},
+            {{t * level, level}, {0, 1}},
             {{t * level, (1 - t) * level}, {0.7, 0.7}}};
         for (const auto &[p, across] : borders) {
           const Vector2d a = p + step * across, b = p - step * across;
@@ -501,8 +523,8 @@ TEST(LimitSurface, IsTheLimitOfSubdivision)
           uv[k] = 0.5 * (s.uv[k] + s.uv[(k + 1) % 3]);
         }
         for (int k = 0; k < 3; ++k)
-          finer.push_back({s.face, {s.vertex[k], m[k], m[(k + 2) % 3]},
-                           {s.uv[k], uv[k], uv[(k + 2) % 3]}});
+          finer.push_back(
+              {s.face, {s.vertex[k], m[k], m[(k + 2) % 3]}, {s.uv[k], uv[k], uv[(k + 2) % 3]}});
         finer.push_back({s.face, {m[0], m[1], m[2]}, {uv[0], uv[1], uv[2]}});
       }
       subs = finer;
@@ -512,8 +534,7 @@ TEST(LimitSurface, IsTheLimitOfSubdivision)
     for (const Sub &s : subs)
       for (int k = 0; k < 3; ++k) {
         const auto rows = surface(mesh, topology, s.face, 0, s.uv[k][0], s.uv[k][1]);
-        const double error =
-            (rows.row(LimitBasis::VALUE).transpose() - limit[s.vertex[k]]).norm();
+        const double error = (rows.row(LimitBasis::VALUE).transpose() - limit[s.vertex[k]]).norm();
         EXPECT_LT(error, 1e-13);
         worst = std::max(worst, error);
       }

@@ -63,8 +63,8 @@ Picture picture_of_sphere(const Camera &camera, int n)
 
 TEST(Picture, ASphereCoversEveryPixelOfItsDiscAndNoOther)
 {
-  for (int n : {1, 3, 8, 20})
-    for (double theta : {0.0, 0.3, 1.1, 2.5})
+  for (int n : {1, 3, 12})
+    for (double theta : {0.0, 1.1, 2.5})
       for (double phi : {0.0, 0.7}) {
         const Camera camera = camera_at(theta, phi);
         const Picture picture = picture_of_sphere(camera, n);

@@ -36,7 +36,7 @@ std::vector<Valences> triples()
   std::vector<Valences> list = {{6, 6, 6}, {3, 3, 3}, {5, 5, 5}, {3, 12, 7}, {6, 4, 16}, {9, 6, 5}};
   for (int n = 3; n <= 16; ++n) {
     list.push_back({n, 6, 6});
-    list.push_back({n, 4, 4});
+    if (n % 4 == 0) list.push_back({n, 4, 5});
   }
   return list;
 }
@@ -60,8 +60,8 @@ Flat by_rule(const PatchRule &rule, const Planar &points)
   for (int q = 0; q < rule.npoints; ++q) {
     const Eigen::Map<const Weights> w(rule.row(q, 0), LimitBasis::ROWS, rule.size);
     const Eigen::Matrix<double, LimitBasis::ROWS, 2> r = w * points;
-    const double density = r(LimitBasis::DU, 0) * r(LimitBasis::DV, 1) -
-        r(LimitBasis::DU, 1) * r(LimitBasis::DV, 0);
+    const double density =
+        r(LimitBasis::DU, 0) * r(LimitBasis::DV, 1) - r(LimitBasis::DU, 1) * r(LimitBasis::DV, 0);
     sum.area += rule.weight[q] * density;
     sum.moment += rule.weight[q] * density * r(LimitBasis::VALUE, 0);
   }

@@ -461,8 +461,10 @@ error = error_of(script("create_membrane 1 sphere 1 1.0\ngroup some id 1:12\n"
                         "compute some some membrane/shape"))
 claim("a group with part of a membrane",
       "group some has 12 of the 42 control points of membrane 1" in error, error)
-for reference in ("c_s[1]", "c_k[1][1]"):
+for reference in ("c_s[1]", "C_k[1][1]"):
     error = error_of(script("create_membrane 1 sphere 1 1.0", after=f"""
+undump          atoms
+thermo_style    one
 run             0
 replicate       2 1 1
 variable        v equal {reference}

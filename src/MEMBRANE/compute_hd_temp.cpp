@@ -1,0 +1,107 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "compute_hd_temp.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hd_base.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+ComputeHDTemp::ComputeHDTemp(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), tfactor(0.0), mass(lmp, igroup, "Compute hd/temp"),
+    settings_given(false)
+{
+  scalar_flag = vector_flag = 1;
+  size_vector = 6;
+  extscalar = 0;
+  extvector = 1;
+  tempflag = 1;
+  vector = new double[size_vector];
+
+  int iarg = 3;
+  while (iarg < narg) {
+    const int used = mass.parse(iarg, narg, arg);
+    if (!used)
+      error->all(FLERR, "Unknown compute hd/temp keyword {}; known are: mass, solver, tol",
+                 arg[iarg]);
+    settings_given = true;
+    iarg += used;
+  }
+}
+
+ComputeHDTemp::~ComputeHDTemp()
+{
+  if (!copymode) delete[] vector;
+}
+
+/* ----------------------------------------------------------------------
+   the mass matrix of the integrator of these atoms, unless the user chose one
+------------------------------------------------------------------------- */
+
+void ComputeHDTemp::init()
+{
+  if (!settings_given)
+    for (auto &fix : modify->get_fix_list())
+      if (auto *integrator = dynamic_cast<FixHDBase *>(fix))
+        if (integrator->groupbit & groupbit || igroup == 0)
+          mass.settings = integrator->mass_settings();
+  mass.init(true);
+}
+
+void ComputeHDTemp::setup()
+{
+  dynamic = 0;
+  if (dynamic_user) dynamic = 1;
+  dof_compute();
+}
+
+/* ----------------------------------------------------------------------
+   extra/dof is 3 by default, as for the momentum of an isolated system, and fixes take their own
+------------------------------------------------------------------------- */
+
+void ComputeHDTemp::dof_compute()
+{
+  adjust_dof_fix();
+  dof = 3.0 * mass.count() - extra_dof - fix_dof;
+  tfactor = dof > 0.0 ? force->mvv2e / (dof * force->boltz) : 0.0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeHDTemp::compute_scalar()
+{
+  invoked_scalar = update->ntimestep;
+  double t[6];
+  mass.kinetic(t);
+  if (dynamic) dof_compute();
+  return scalar = tfactor * (t[0] + t[1] + t[2]);
+}
+
+void ComputeHDTemp::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  mass.kinetic(vector);
+  for (int i = 0; i < 6; ++i) vector[i] *= force->mvv2e;
+}

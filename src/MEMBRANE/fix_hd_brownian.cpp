@@ -1,0 +1,112 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_hd_brownian.h"
+
+#include "atom.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
+    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0)
+{
+  if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
+  temperature = utils::numeric(FLERR, arg[3], false, lmp);
+  seed = utils::bnumeric(FLERR, arg[4], false, lmp);
+  if (temperature < 0.0)
+    error->all(FLERR, "Fix hd/brownian temperature {} must not be negative", arg[3]);
+  if (seed <= 0) error->all(FLERR, "Fix hd/brownian seed {} must be positive", arg[4]);
+
+  int iarg = 5;
+  while (iarg < narg) {
+    if (const int used = mass.parse(iarg, narg, arg)) {
+      iarg += used;
+    } else if (strcmp(arg[iarg], "gamma_t") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/brownian gamma_t", error);
+      gamma_t = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (gamma_t <= 0.0)
+        error->all(FLERR, "Fix hd/brownian gamma_t {} must be positive", arg[iarg + 1]);
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown fix hd/brownian keyword {}; known are: gamma_t, mass, solver, tol",
+                 arg[iarg]);
+  }
+  if (gamma_t == 0.0)
+    error->all(FLERR, "Fix hd/brownian needs gamma_t, the drag coefficient of a vertex");
+  mass.set_drag(gamma_t);
+}
+
+int FixHDBrownian::setmask()
+{
+  return INITIAL_INTEGRATE;
+}
+
+void FixHDBrownian::init()
+{
+  FixHDBase::init();
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix hd/brownian does not work with run_style respa");
+  reset_dt();
+}
+
+void FixHDBrownian::reset_dt()
+{
+  dt = update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   Z qdot = f + noise with the drag matrix Z = gamma_t L^T L (mass vertex; the mass matrix with
+   gamma_t in place of masses for the others), so with constant mobility
+     dq = Z^-1 f dt + sqrt(2 kT dt) Z^-1/2 (xi_n + xi_n+1)/2,
+   which samples equilibrium to second order in dt where plain Euler noise xi_n is first-order
+   [B. Leimkuhler and C. Matthews, Appl. Math. Res. Express 2013, 34]
+------------------------------------------------------------------------- */
+
+void FixHDBrownian::initial_integrate(int)
+{
+  accelerate();
+  MeshPart &part = mass.part();
+  const double kT = force->boltz * temperature / force->mvv2e;
+  const bigint step = update->ntimestep;
+  noise.resize(part.size());
+  next_noise.resize(part.size());
+  mass.matrix().sample(0.5 * kT / dt, seed, step, noise);
+  mass.matrix().sample(0.5 * kT / dt, seed, step + 1, next_noise);
+
+  // gamma_t is mass over time, as in fix brownian
+
+  for (int i = 0; i < part.owned; ++i) {
+    double *v = atom->v[part.atom_of(i)];
+    for (int k = 0; k < 3; ++k)
+      v[k] = force->ftm2v * acceleration[i].c[k] + noise[i].c[k] + next_noise[i].c[k];
+  }
+  drift(dt);
+}
+
+void FixHDBrownian::reset_target(double t_new)
+{
+  temperature = t_new;
+}

@@ -1,0 +1,175 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_hd_langevin.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using Membrane_NS::MassKind;
+
+/* ---------------------------------------------------------------------- */
+
+FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
+    FixHDBase(lmp, narg, arg), ratio(atom->ntypes + 1, 1.0), scaled(false), tally(false),
+    energy(0.0), dt(0.0)
+{
+  if (narg < 7) utils::missing_cmd_args(FLERR, "fix hd/langevin", error);
+  scalar_flag = global_freq = extscalar = 1;
+  ecouple_flag = 1;
+  restart_global = 1;
+
+  t_start = utils::numeric(FLERR, arg[3], false, lmp);
+  t_stop = utils::numeric(FLERR, arg[4], false, lmp);
+  damp = utils::numeric(FLERR, arg[5], false, lmp);
+  seed = utils::bnumeric(FLERR, arg[6], false, lmp);
+  if (t_start < 0.0 || t_stop < 0.0)
+    error->all(FLERR, "Fix hd/langevin temperatures {} and {} must not be negative", arg[3], arg[4]);
+  if (damp <= 0.0) error->all(FLERR, "Fix hd/langevin damping time {} must be positive", arg[5]);
+  if (seed <= 0) error->all(FLERR, "Fix hd/langevin seed {} must be positive", arg[6]);
+
+  int iarg = 7;
+  while (iarg < narg) {
+    if (const int used = mass.parse(iarg, narg, arg)) {
+      iarg += used;
+    } else if (strcmp(arg[iarg], "scale") == 0) {
+      if (iarg + 3 > narg) utils::missing_cmd_args(FLERR, "fix hd/langevin scale", error);
+      const int itype = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp);
+      if (itype < 1 || itype > atom->ntypes)
+        error->all(FLERR, "Fix hd/langevin scale type {} does not exist", arg[iarg + 1]);
+      ratio[itype] = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (ratio[itype] <= 0.0)
+        error->all(FLERR, "Fix hd/langevin scale ratio {} must be positive", arg[iarg + 2]);
+      scaled = true;
+      iarg += 3;
+    } else if (strcmp(arg[iarg], "tally") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/langevin tally", error);
+      tally = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
+    } else
+      error->all(FLERR,
+                 "Unknown fix hd/langevin keyword {}; known are: mass, solver, tol, scale, tally",
+                 arg[iarg]);
+  }
+  if (scaled && mass.settings.kind == MassKind::CONSISTENT)
+    error->all(FLERR, "Fix hd/langevin scale needs mass vertex or lumped");
+}
+
+int FixHDLangevin::setmask()
+{
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE;
+}
+
+void FixHDLangevin::init()
+{
+  FixHDBase::init();
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix hd/langevin does not work with run_style respa");
+  reset_dt();
+}
+
+void FixHDLangevin::reset_dt()
+{
+  dt = update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   B A O A B [B. Leimkuhler and C. Matthews, Appl. Math. Res. Express 2013, 34]:
+   half a kick, half a drift, exact friction and noise, half a drift, and after the new forces
+   half a kick. Momenta p = M v and, since M is constant, velocities are the same integrator.
+------------------------------------------------------------------------- */
+
+void FixHDLangevin::initial_integrate(int)
+{
+  kick(0.5 * dt);
+  drift(0.5 * dt);
+  relax();
+  drift(0.5 * dt);
+}
+
+void FixHDLangevin::final_integrate()
+{
+  accelerate();
+  kick(0.5 * dt);
+}
+
+/* ----------------------------------------------------------------------
+   friction gamma M with gamma = 1/damp: p' = -gamma p + noise, so v -> exp(-gamma dt) v + noise
+   with <noise noise> = (1 - exp(-2 gamma dt)) kT M^-1
+------------------------------------------------------------------------- */
+
+void FixHDLangevin::relax()
+{
+  double done = update->ntimestep - update->beginstep;
+  if (done != 0.0) done /= update->endstep - update->beginstep;
+  const double kT = force->boltz * (t_start + done * (t_stop - t_start)) / force->mvv2e;
+
+  MeshPart &part = mass.part();
+  const double before = tally ? kinetic() : 0.0;
+  part.load(atom->v, velocity);
+  if (scaled) {
+    std::vector<double> keep(part.owned);
+    for (int i = 0; i < part.owned; ++i)
+      keep[i] = std::exp(-dt / (damp * ratio[atom->type[part.atom_of(i)]]));
+    mass.matrix().relax(keep, kT, seed, update->ntimestep, velocity);
+  } else
+    mass.matrix().relax(std::exp(-dt / damp), kT, seed, update->ntimestep, velocity);
+  part.store(velocity, atom->v);
+  if (tally) energy += before - kinetic();
+}
+
+double FixHDLangevin::kinetic()
+{
+  double t[6];
+  mass.kinetic(t);
+  return 0.5 * force->mvv2e * (t[0] + t[1] + t[2]);
+}
+
+void FixHDLangevin::reset_target(double t_new)
+{
+  t_start = t_stop = t_new;
+}
+
+/* ----------------------------------------------------------------------
+   energy the bath has taken: pe + ke + this is conserved up to the timestep error
+------------------------------------------------------------------------- */
+
+double FixHDLangevin::compute_scalar()
+{
+  return tally ? energy : 0.0;
+}
+
+void FixHDLangevin::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  const int size = sizeof(double);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&energy, sizeof(double), 1, fp);
+}
+
+void FixHDLangevin::restart(char *buf)
+{
+  memcpy(&energy, buf, sizeof(double));
+}

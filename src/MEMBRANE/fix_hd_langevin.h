@@ -1,0 +1,61 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(hd/langevin,FixHDLangevin);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_HD_LANGEVIN_H
+#define LMP_FIX_HD_LANGEVIN_H
+
+#include "fix_hd_base.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Langevin dynamics of control points by the BAOAB splitting.
+class FixHDLangevin : public FixHDBase {
+ public:
+  FixHDLangevin(class LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void reset_dt() override;
+  void reset_target(double) override;
+  double compute_scalar() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+ private:
+  double t_start, t_stop, damp;
+  bigint seed;
+  std::vector<double> ratio;    // by type: damping time over damp
+  bool scaled, tally;
+  double energy;    // taken out of the membrane so far
+  double dt;
+
+  Membrane_NS::VertexField velocity;
+  void relax();
+  double kinetic();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
