@@ -91,7 +91,7 @@ DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, std::vector<char *> args) :
     if (strcmp(args[i], "bond") == 0 && utils::strmatch(args[i + 1], "^c_"))
       error->all(FLERR,
                  "Dump membrane/image does not color bonds by a compute: use dump image for these");
-  if (utils::strmatch(filename, "\\.(tga|TGA)(\\.\\w+)?$"))
+  if (utils::strmatch(filename, "\\.[tT][gG][aA]"))
     error->all(FLERR, "Dump membrane/image writes JPEG, PNG and PPM files, not {}", filename);
 
   for (int &component : image->background) component = 255;

@@ -191,11 +191,6 @@ bool PairHelfrich::Coefficients::same_global_terms(const Coefficients &o) const
 
 void PairHelfrich::init_style()
 {
-  // not from the start: Pair::init() would warn of angles that exclude neighbors, but there are no
-  // neighbor lists
-
-  manybody_flag = 1;
-
   mesh = &DistributedMesh::of(lmp, "Pair style helfrich");
   mesh->update();
   epoch = -1;

@@ -58,8 +58,9 @@ void WriteMembrane::command(int narg, char **arg)
     if (std::find(mesh.molecules().begin(), mesh.molecules().end(), molecule) ==
         mesh.molecules().end())
       error->all(
-          FLERR, "write_membrane membrane {} does not exist; there are {} membranes, {} to {}",
-          molecule, mesh.molecules().size(), mesh.molecules().front(), mesh.molecules().back());
+          FLERR,
+          "write_membrane membrane {} does not exist; molecule IDs of membranes are {} to {}",
+          molecule, mesh.molecules().front(), mesh.molecules().back());
 
   // every rank has the whole mesh: one writes, all fail together
 
