@@ -113,11 +113,16 @@ claim("subdivide 1 has the faces of the control mesh", len(read_ply("s.ply")[1])
 
 # === The control mesh goes round
 
-for name, start in {"sphere": SPHERE, "two membranes": TWO, "periodic plane": PLANE}.items():
-    run(box() + start + "write_membrane a.off subdivide 0\nwrite_data a.data\n")
-    run(box() + "create_membrane 1 file a.off\nwrite_membrane b.off subdivide 0\n"
-        if name != "two membranes" else
-        box() + start + "write_membrane b.off subdivide 0\n")
+AGAIN = {
+    "sphere": (SPHERE, "create_membrane 1 file 1.off\n"),
+    "two membranes": (TWO, "create_membrane 1 file 1.off\ncreate_membrane 2 file 7.off molecule 7\n"),
+    "periodic plane": (PLANE, "create_membrane 1 file 1.off\n"),
+}
+for name, (start, again) in AGAIN.items():
+    molecules = (1, 7) if "7.off" in again else (1,)
+    run(box() + start + "write_membrane a.off subdivide 0\n" +
+        "".join(f"write_membrane {m}.off subdivide 0 membrane {m}\n" for m in molecules))
+    run(box() + again + "write_membrane b.off subdivide 0\n")
     a, b = read_off("a.off"), read_off("b.off")
     worst = max(distance(p, q) for p, q in zip(a[0], b[0]))
     claim(f"{name}: the control mesh makes the same membrane again",
