@@ -18,13 +18,17 @@
 #include "fix_hd_base.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "distributed_mesh.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "force.h"
 #include "modify.h"
+#include "stiffness_probe.h"
 #include "update.h"
 
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -32,12 +36,27 @@ using namespace FixConst;
 // a control point that moves further than this fraction of the longest edge in one step is lost
 static constexpr double MOST_DRIFT = 0.25;
 
+// the limit of stability takes two force evaluations for each of these steps, to a tenth: runs that
+// are too short to make nothing of it go without
+static constexpr int LANCZOS_STEPS = 8;
+static constexpr int WORTH_CHECKING = 400;
+
 /* ---------------------------------------------------------------------- */
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0)
+    Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
+    check(true), limit_due(false), limit(0.0)
 {
   time_integrate = 1;
+}
+
+int FixHDBase::modify_param(int narg, char **arg)
+{
+  if (strcmp(arg[0], "check") != 0) return 0;
+  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify check", error);
+  check = utils::logical(FLERR, arg[1], false, lmp);
+  if (!check) limit = 0.0;
+  return 2;
 }
 
 void FixHDBase::init()
@@ -65,9 +84,57 @@ void FixHDBase::check_other_integrators()
 
 /* ---------------------------------------------------------------------- */
 
+FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &user)
+{
+  FixHDBase *found = nullptr;
+  for (auto &fix : lmp->modify->get_fix_list()) {
+    auto *integrator = dynamic_cast<FixHDBase *>(fix);
+    if (!integrator) continue;
+    int mine = 0, any;
+    for (int i = 0; i < lmp->atom->nlocal; ++i)
+      if (lmp->atom->mask[i] & groupbit && lmp->atom->mask[i] & integrator->groupbit) mine = 1;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp->world);
+    if (!any) continue;
+    if (found &&
+        (found->mass_settings().kind != integrator->mass_settings().kind ||
+         found->drag_coefficient() != integrator->drag_coefficient()))
+      lmp->error->all(FLERR,
+                      "{}: fixes {} and {} move atoms of the group with different mass matrices; "
+                      "use a group of one of them",
+                      user, found->id, integrator->id);
+    if (!found) found = integrator;
+  }
+  return found;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixHDBase::setup(int)
 {
   accelerate();
+  limit_due = check && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
+}
+
+/* ----------------------------------------------------------------------
+   velocity Verlet, and the splittings with friction, are stable up to 2/omega, the overdamped step
+   up to 2/rate; of the largest eigenvalue this takes an estimate from below, so whoever is beyond
+   this limit is beyond the true one
+------------------------------------------------------------------------- */
+
+void FixHDBase::find_limit()
+{
+  limit_due = false;
+  StiffnessProbe probe(lmp, mass, StiffnessProbe::Forces::MEMBRANE);
+  if (!probe.has_forces()) return;
+  const double largest = probe.largest(LANCZOS_STEPS, 1.0e-2).value;
+  probe.restore();
+  if (!(largest > 0.0)) return;
+  limit = 2.0 / (drag_coefficient() > 0.0 ? largest : std::sqrt(largest));
+  if (update->dt > limit && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {}: timestep {} is beyond the stability limit of about {:.3g}; hd_timestep "
+                   "finds it precisely",
+                   style, update->dt, limit);
 }
 
 void FixHDBase::accelerate()
@@ -90,6 +157,10 @@ void FixHDBase::kick(double step)
 
 void FixHDBase::drift(double step)
 {
+  // here rather than in setup(), so that neither run 0 nor rerun pays for it
+
+  if (limit_due) find_limit();
+
   MeshPart &part = mass.part();
   int runaway = -1;
   for (int i = 0; i < part.owned; ++i) {
@@ -100,11 +171,23 @@ void FixHDBase::drift(double step)
     const double moved = step * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     if (!(moved < most_drift)) runaway = j;
   }
-  if (runaway >= 0)
-    error->one(FLERR,
-               "Fix {}: control point {} moved further than {} of an edge in one step: the timestep "
-               "{} is too long; hd_timestep finds the limit",
-               style, atom->tag[runaway], MOST_DRIFT, update->dt);
+  if (runaway >= 0) report_runaway(atom->tag[runaway]);
+}
+
+// on the rank that sees it: others may be anywhere in their step, so nothing can be computed now
+
+void FixHDBase::report_runaway(tagint id_of_point)
+{
+  std::string reason = fmt::format("the timestep {} is too long", update->dt);
+  if (limit > 0.0 && update->dt > limit)
+    reason = fmt::format("timestep {} is beyond the stability limit of about {:.3g}", update->dt,
+                         limit);
+  else if (limit > 0.0)
+    reason += fmt::format(", though the stability limit was about {:.3g} when the run began", limit);
+  error->one(FLERR,
+             "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
+             "hd_timestep finds the limit",
+             style, id_of_point, MOST_DRIFT, reason);
 }
 
 double FixHDBase::memory_usage()

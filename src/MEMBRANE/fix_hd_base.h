@@ -26,8 +26,13 @@ class FixHDBase : public Fix {
 
   void init() override;
   void setup(int) override;
+  int modify_param(int, char **) override;
   double memory_usage() override;
 
+  /// The fix of this kind that moves atoms of the group, if any. Collective; stops if there are
+  /// several and their matrices differ.
+  static FixHDBase *of_group(class LAMMPS *, int groupbit, const std::string &user);
+  double drag_coefficient() const { return mass.drag_coefficient(); }
   const Membrane_NS::MassOperator::Settings &mass_settings() const { return mass.settings; }
 
  protected:
@@ -43,8 +48,12 @@ class FixHDBase : public Fix {
 
  private:
   double most_drift;
+  bool check, limit_due;
+  double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
 
   void check_other_integrators();
+  void find_limit();
+  void report_runaway(tagint);
 };
 
 }    // namespace LAMMPS_NS

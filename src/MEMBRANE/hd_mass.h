@@ -35,6 +35,8 @@ class HDMass : protected Pointers {
   int parse(int iarg, int narg, char **arg);
   /// Use this number for all vertices instead of the atoms' masses: a matrix of drag coefficients.
   void set_drag(double coefficient) { drag = coefficient; }
+  /// That number, or 0 for masses.
+  double drag_coefficient() const { return drag; }
   /// Collective; call from init(). The group must hold whole membranes and nothing else, unless
   /// other_atoms; masses must be positive.
   void init(bool other_atoms = false);

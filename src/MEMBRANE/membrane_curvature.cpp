@@ -84,20 +84,23 @@ void Membrane_NS::curvature_integrals(const FaceGroup &group, const double (*x)[
                                       const FaceModel &model, CurvatureIntegrals &out)
 {
   const PatchRule &rule = *group.rule;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> control(rule.size, 3);
+  Eigen::Matrix<double, 4, Eigen::Dynamic> control(4, rule.size);    // 4: a vector register
   for (int s = 0; s < group.nfaces; ++s) {
     const int slot = group.first_slot + s;
     const Vector3d origin(&model.origin[3 * static_cast<size_t>(slot)]);
     for (int k = 0; k < rule.size; ++k)
-      control.row(k) = Eigen::Map<const Vector3d>(x[group.point(s, k)]) - origin;
+      control.col(k) << Eigen::Map<const Vector3d>(x[group.point(s, k)]) - origin, 0.0;
 
     double mean = 0.0, willmore = 0.0;
     Vector3d moment = Vector3d::Zero();
     for (int q = 0; q < rule.npoints; ++q) {
-      const Eigen::Map<const LimitBasis::Weights> weights(rule.row(q, 0), LimitBasis::ROWS,
-                                                          rule.size);
-      LimitValues values = LimitValues::Zero();
-      for (int k = 0; k < rule.size; ++k) values += weights.col(k) * control.row(k);
+      LimitValues values;
+      for (int row = 0; row < LimitBasis::ROWS; ++row) {
+        const double *weights = rule.row(q, row);
+        Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+        for (int k = 0; k < rule.size; ++k) sum += weights[k] * control.col(k);
+        values.row(row) = sum.head<3>();
+      }
       const LimitPoint point = limit_point(values);
       const Vector3d ru = values.row(LimitBasis::DU), rv = values.row(LimitBasis::DV);
       const double area = rule.weight[q] * ru.cross(rv).norm(), H = point.mean_curvature;

@@ -22,6 +22,7 @@
 #include "distributed_mesh.h"
 #include "error.h"
 #include "force.h"
+#include "membrane_regularization.h"
 #include "memory.h"
 #include "modify.h"
 #include "update.h"
@@ -36,13 +37,16 @@ using Membrane_NS::FaceGroup;
 using Membrane_NS::PatchRules;
 using Membrane_NS::Quadrature;
 
-enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, NEXTRA };
+enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, REGULARIZATION, NEXTRA };
+
+// a face whose D/A is beyond this is about to turn over
+static constexpr double WORST_FACE = 50.0;
 
 /* ---------------------------------------------------------------------- */
 
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
     Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
-    volumes(false), area_local(false), gauss(false), report(false), restored(false),
+    volumes(false), area_local(false), gauss(false), regularized(false), report(false), restored(false),
     epoch(-1), totals(lmp)
 {
   single_enable = 0;
@@ -161,10 +165,13 @@ void PairHelfrich::coeff(int narg, char **arg)
     } else if (key == "pressure") {
       c.pressure = utils::numeric(FLERR, value(iarg, 1), false, lmp);
       iarg += 2;
+    } else if (key == "regularize") {
+      c.regularize = modulus(iarg);
+      iarg += 2;
     } else
       error->all(FLERR,
                  "Unknown pair_coeff helfrich keyword {}; known are: kg, tension, area, area/local, "
-                 "volume, pressure",
+                 "volume, pressure, regularize",
                  key);
   }
 
@@ -241,7 +248,7 @@ void PairHelfrich::choose_terms()
 
   membrane_terms.assign(nmembranes, nullptr);
   membrane_volume.assign(nmembranes, 0);
-  first_pass = volumes = area_local = gauss = false;
+  first_pass = volumes = area_local = gauss = regularized = false;
   for (int m = 0; m < nmembranes; ++m)
     for (int t = 1; t <= atom->ntypes; ++t) {
       if (!types[m * (atom->ntypes + 1) + t]) continue;
@@ -266,6 +273,7 @@ void PairHelfrich::choose_terms()
       volumes = volumes || c.uses_volume();
       area_local = area_local || c.local_area_modulus != 0.0;
       gauss = gauss || c.kg != 0.0;
+      regularized = regularized || c.regularize != 0.0;
     }
 
   totals.reset(*mesh);
@@ -309,6 +317,7 @@ void PairHelfrich::localize()
   model.resize(nslots);
   base_tension.assign(nslots, 0.0);
   local_modulus.assign(area_local ? nslots : 0, 0.0);
+  regularization.assign(regularized ? nslots : 0, 0.0);
 
   for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nslots(); ++s) {
@@ -320,6 +329,7 @@ void PairHelfrich::localize()
         model.kg[slot] += c.kg / 3.0;
         base_tension[slot] += c.tension / 3.0;
         if (area_local) local_modulus[slot] += c.local_area_modulus / 3.0;
+        if (regularized) regularization[slot] += c.regularize / 3.0;
       }
     }
   model.tension = base_tension;
@@ -455,12 +465,10 @@ void PairHelfrich::compute(int eflag, int vflag)
   energies.virial.resize(vflag_either ? 6 * (size_t) nslots : 0);
 
   const int nall = atom->nlocal + atom->nghost;
-  if (!force->newton)
-    for (int i = atom->nlocal; i < nall; ++i) {
-      std::fill_n(atom->f[i], 3, 0.0);
-      if (eflag_atom) eatom[i] = 0.0;
-      if (vflag_atom) std::fill_n(vatom[i], 6, 0.0);
-    }
+  if (!force->newton) {
+    for (int i = atom->nlocal; i < nall; ++i) std::fill_n(atom->f[i], 3, 0.0);
+    clear_ghost_tallies();
+  }
 
   Membrane_NS::HelfrichTerms terms;
   terms.gauss = gauss;
@@ -469,9 +477,47 @@ void PairHelfrich::compute(int eflag, int vflag)
   const auto f = nall ? reinterpret_cast<double(*)[3]>(atom->f[0]) : nullptr;
   for (const FaceGroup &group : groups) face_forces(group, x, model, terms, f, energies);
   if (volumes) share_volume_recoil();
+  if (regularized) regularize();
 
   if (eflag_either || vflag_either) tally();
-  if (!force->newton) comm->reverse_comm(this);
+  if (!force->newton)
+    comm->reverse_comm(this);
+  else if (!force->newton_pair && (eflag_atom || vflag_atom)) {
+    comm->reverse_comm(this);
+    clear_ghost_tallies();
+  }
+}
+
+void PairHelfrich::clear_ghost_tallies()
+{
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i) {
+    if (eflag_atom) eatom[i] = 0.0;
+    if (vflag_atom) std::fill_n(vatom[i], 6, 0.0);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   faces' shapes; stops before one collapses
+------------------------------------------------------------------------- */
+
+void PairHelfrich::regularize()
+{
+  distortion_energy.assign(eflag_either ? count_slots(groups) : 0, 0.0);
+  if (atom->nlocal + atom->nghost == 0) return;
+  const auto x = reinterpret_cast<const double(*)[3]>(atom->x[0]);
+  const auto f = reinterpret_cast<double(*)[3]>(atom->f[0]);
+  for (const FaceGroup &group : groups) {
+    const double worst = Membrane_NS::regularize_faces(group, x, regularization, f,
+                                                       distortion_energy, energies.virial);
+    if (worst < WORST_FACE) continue;
+    for (int s = 0; s < group.nfaces; ++s)
+      if (!(Membrane_NS::face_distortion(x[group.point(s, 0)], x[group.point(s, 1)],
+                                         x[group.point(s, 2)]) < WORST_FACE))
+        error->one(FLERR,
+                   "Membrane mesh: {} is about to collapse; use a larger regularize modulus in "
+                   "pair_coeff or a smaller timestep",
+                   mesh->face_name(group.face[s]));
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -522,7 +568,9 @@ void PairHelfrich::tally()
           const double a0 = reference_area[group.face[s]], excess = area - a0;
           part[AREA] += 0.5 * local_modulus[slot] * excess * excess / a0;
         }
-        const double sum = part[0] + part[1] + part[2] + part[3];
+        const double shape = regularized ? distortion_energy[slot] : 0.0;
+        const double sum = part[0] + part[1] + part[2] + part[3] + shape;
+        pvector[REGULARIZATION] += shape;
         for (int k = 0; k < 4; ++k) pvector[k] += part[k];
         pvector[TOTAL_AREA] += area;
         if (eflag_global) eng_vdwl += sum;
@@ -544,14 +592,15 @@ void PairHelfrich::tally()
 }
 
 /* ----------------------------------------------------------------------
-   with newton off LAMMPS returns nothing from ghosts: forces and per-atom tallies go back here
+   with newton off LAMMPS returns nothing from ghosts: forces and per-atom tallies go back here.
+   With newton off for pairs only it returns all, but pair hybrid loses tallies: these go back here
 ------------------------------------------------------------------------- */
 
 int PairHelfrich::pack_reverse_comm(int n, int first, double *buf)
 {
   int m = 0;
   for (int i = first; i < first + n; ++i) {
-    for (int k = 0; k < 3; ++k) buf[m++] = atom->f[i][k];
+    for (int k = 0; k < 3; ++k) buf[m++] = force->newton ? 0.0 : atom->f[i][k];
     buf[m++] = eflag_atom ? eatom[i] : 0.0;
     for (int k = 0; k < 6; ++k) buf[m++] = vflag_atom ? vatom[i][k] : 0.0;
   }

@@ -62,7 +62,8 @@ class PairHelfrich : public Pair {
     double area_modulus = 0.0, area = 0.0;    // KA/2 (A-A0)^2/A0 per membrane
     double local_area_modulus = 0.0;          // KA/2 sum (a-a0)^2/a0 over faces
     double volume_modulus = 0.0, volume = 0.0;
-    double pressure = 0.0;    // DP: energy -DP V
+    double pressure = 0.0;      // DP: energy -DP V
+    double regularize = 0.0;    // KR: energy KR (D/A - 1) of a face's shape
     bool area_init = false, volume_init = false;
 
     bool same_global_terms(const Coefficients &) const;
@@ -87,7 +88,7 @@ class PairHelfrich : public Pair {
   std::vector<char> membrane_volume;                   // whether its volume is wanted
   std::vector<std::vector<int>> membrane_faces;        // for area/local only
   std::vector<double> reference_area;                  // by face, for area/local only
-  bool first_pass, volumes, area_local, gauss, report;
+  bool first_pass, volumes, area_local, gauss, regularized, report;
   bool restored;    // references come from a restart file and outlive the next pair_coeff
 
   bigint epoch;    // reneighbouring that what follows is for
@@ -95,7 +96,8 @@ class PairHelfrich : public Pair {
   Membrane_NS::FaceModel model;
   Membrane_NS::FaceIntegrals integrals;
   Membrane_NS::FaceEnergies energies;
-  std::vector<double> base_tension, local_modulus;    // by slot
+  std::vector<double> base_tension, local_modulus, regularization;    // by slot
+  std::vector<double> distortion_energy;                              // by slot
   MeshTotals totals;
 
   void allocate();
@@ -104,7 +106,9 @@ class PairHelfrich : public Pair {
   void take_references();
   void apply_global_terms();
   void share_volume_recoil();
+  void regularize();
   void tally();
+  void clear_ghost_tallies();
   void read_all(FILE *, void *, size_t, size_t);
 };
 

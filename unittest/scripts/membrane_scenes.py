@@ -104,13 +104,13 @@ TERMS = {
 NEEDS_CLOSED = ("volume", "pressure")
 
 
-def coefficients(term, closed=True):
-    """The pair_coeff lines of a term, without what an open membrane cannot have."""
+def coefficients(term, closed=True, style=""):
+    """The pair_coeff lines of a term, without what an open membrane cannot have; the style is for hybrid."""
     lines = ""
     for i, text in enumerate(TERMS[term], 1):
         if not closed:
             text = text.replace(" volume 60.0 3.0 pressure 1.5", "")
-        lines += f"pair_coeff {i} {i} {text}\n"
+        lines += f"pair_coeff {i} {i} {style} {text}\n"
     return lines
 
 

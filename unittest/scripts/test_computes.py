@@ -287,6 +287,17 @@ for box in ("block -2 2 -2 2 -2 2", "prism -2 2 -2 2 -2 2 0.7 -0.5 0.9"):
         claim(f"{name}, {ranks} ranks: limit positions are near their control points", far < 0.1,
               f"{far:.3f}")
 
+wide = shape("create_membrane 1 sphere 0 1.0")
+values = atoms()[1]
+tight = shape("create_membrane 1 sphere 0 1.0 center 0.4 0.5 0.6", box="block -1.2 1.2 -1.2 1.2 -1.2 1.2",
+              ranks=2)
+there = atoms()[1]
+worst = max(max(abs(tight[key] - wide[key]) for key in COLUMNS[:10]),
+            max(largest(subtract(there[i][:2] + there[i][NORMAL], values[i][:2] + values[i][NORMAL]))
+                for i in values))
+claim("an icosahedron whose patches span more than half the box is one in a large box", worst < 1e-12,
+      off(worst))
+
 moved = thermo(run(script("""
 create_membrane 1 sphere 1 1.0
 velocity        all set 2.0 -1.0 0.5

@@ -79,6 +79,7 @@ radius = [(((x - 99.5) ** 2 + (y - 99.5) ** 2) ** 0.5 / 50, color) for x, y, col
 inside = [color for r, color in radius if r < 0.97]
 claim("a sphere has no holes", BLACK not in inside, len(inside))
 claim("nothing is drawn beside it", all(color == BLACK for r, color in radius if r > 1.03))
+picture = draw(box() + SPHERE, TOP, "surface molecule")
 jumps = [max(abs(a - b) for a, b in zip(picture.at(x, y), picture.at(x + 1, y)))
          for y in range(66, 134) for x in range(66, 134)]
 claim("its shading is smooth: neighbouring pixels differ by a few shades of 255", max(jumps) <= 16,
@@ -146,7 +147,7 @@ claim("along a straight line", all(side.at(x, 103) == BLACK for x in range(200))
 across = box() + "create_membrane 1 sphere 3 1.0 center 1.8 0 0\n"
 whole, cut = draw(across, TOP), draw(across, TOP, "whole no")
 claim("a closed membrane is drawn in one piece", whole.at(10, 100) == BLACK != whole.at(190, 100) and
-      draw(across, TOP + "center s 0.9 0.5 0.5").at(170, 100) != BLACK)
+      draw(across, TOP + "center s 0.9 0.5 0.5").at(150, 100) != BLACK)
 claim("whole no cuts it at the box", cut.at(10, 100) != BLACK != cut.at(190, 100))
 
 # === Colors

@@ -18,7 +18,7 @@ compute         shape all membrane/shape
 thermo_style    custom step pe c_shape[1] c_shape[2]
 thermo_modify   format float %20.15g
 run             0
-write_membrane  all surface.off
+write_membrane  surface.off
 """
 
 LOAD = f"plugin load {PLUGIN}\n"

@@ -28,6 +28,8 @@ LAYOUTS = {    # ranks, before the box is made, before the run
     "1 rank, newton off": (1, "newton off", ""),
     "2 ranks": (2, "", ""),
     "2 ranks, newton off": (2, "newton off", ""),
+    "2 ranks, newton off on": (2, "newton off on", ""),
+    "2 ranks, newton on off": (2, "newton on off", ""),
     "4 ranks": (4, "", ""),
     "4 ranks, processors 4 1 1": (4, "processors 4 1 1", ""),
     "4 ranks, tiled, balance rcb": (4, "comm_style tiled", "balance 1.0 rcb"),

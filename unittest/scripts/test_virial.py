@@ -51,7 +51,9 @@ def check(name, scene, terms, ranks=1, **options):
     if scene.box.startswith("block"):
         script += "change_box all triclinic\n"
     for i, term in enumerate(terms):
-        script += (coefficients(term, scene.closed) + "run 0 post no\n" + scene.shake(i + 1) +
+        overlay = "hybrid" in options.get("style", "")
+        script += (coefficients(term, scene.closed, "helfrich" if overlay else "") +
+                   "pair_coeff * * lj/cut 0.0 0.5\n" * overlay + "run 0 post no\n" + scene.shake(i + 1) +
                    "\nrun 0 post no\n" + strained_runs(scene))
     rows = thermo(run(script, ranks=ranks))
     per_term = 2 + len(STEPS) * len(COMPONENTS)
@@ -93,5 +95,9 @@ for name in ("sphere across the corner of the box", "tilted box, plane"):
     check(name, SCENES[name], ["all terms"], quadrature=3)
     check(name, SCENES[name], ["all terms"], before="newton off")
     check(name, SCENES[name], ["all terms"], before="newton off", ranks=2)
+for newton in ("on", "off", "off on", "on off"):
+    check("torus", SCENES["torus"], ["all terms"], before=f"newton {newton}", style="hybrid/overlay helfrich lj/cut 1.0")
+    check("sphere across the corner of the box", SCENES["sphere across the corner of the box"], ["all terms"],
+          before=f"newton {newton}", style="hybrid/overlay helfrich lj/cut 1.0")
 
 finish()

@@ -14,8 +14,16 @@ from sphinx.util.math import get_node_equation_number
 logger = logging.getLogger(__name__)
 
 
+def brace_fractions(tex):
+    r"""``\frac12`` as ``\frac{1}{2}``: docutils takes the 12 for one number."""
+    tex = re.sub(r'\\frac\s*([0-9A-Za-z])', r'\\frac{\1}', tex)
+    return re.sub(r'(\\frac\{[^{}]*\})\s*([0-9A-Za-z])', r'\1{\2}', tex)
+
+
 def convert(node, block):
-    tex = node.astext()
+    tex = brace_fractions(node.astext())
+    if tex[:1] in ('^', '_'):    # an exponent after plain text
+        tex = '{}' + tex
     try:
         try:
             code = tex2mathml(tex, as_block=block)    # docutils 0.21 and later

@@ -1,0 +1,251 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace Membrane_NS;
+
+static constexpr double TWO_PI = 6.283185307179586476925;
+
+/* ----------------------------------------------------------------------
+   a vector of LANES doubles, one for each face of a block, with elementwise arithmetic
+------------------------------------------------------------------------- */
+
+namespace {
+
+typedef double Lane __attribute__((vector_size(LANES * sizeof(double))));
+
+struct Lane3 {
+  Lane x, y, z;
+};
+
+struct LaneComplex {
+  Lane re, im;
+};
+
+inline LaneComplex operator*(const LaneComplex &a, const LaneComplex &b)
+{
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+
+inline LaneComplex conjugate(const LaneComplex &a)
+{
+  return {a.re, -a.im};
+}
+
+inline Lane sqrt(const Lane &a)
+{
+  Lane root;
+  for (int l = 0; l < LANES; ++l) root[l] = std::sqrt(a[l]);
+  return root;
+}
+
+// exp(-2 pi i s)
+inline LaneComplex wave(const Lane &s)
+{
+  LaneComplex e;
+  for (int l = 0; l < LANES; ++l) {
+    e.re[l] = std::cos(TWO_PI * s[l]);
+    e.im[l] = -std::sin(TWO_PI * s[l]);
+  }
+  return e;
+}
+
+inline double total(const Lane &a)
+{
+  double sum = 0.0;
+  for (int l = 0; l < LANES; ++l) sum += a[l];
+  return sum;
+}
+
+inline Lane3 combine(const double *weights, const std::vector<Lane3> &x)
+{
+  Lane3 sum{};
+  for (size_t k = 0; k < x.size(); ++k) {
+    sum.x += weights[k] * x[k].x;
+    sum.y += weights[k] * x[k].y;
+    sum.z += weights[k] * x[k].z;
+  }
+  return sum;
+}
+
+/* ----------------------------------------------------------------------
+   visit(r, n dA) for each quadrature point of each block of faces; n dA is zero in lanes that
+   fill up the last block
+------------------------------------------------------------------------- */
+
+template <class Visit>
+void for_each_point(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
+                    Visit &&visit)
+{
+  const PatchRule &rule = *group.rule;
+  std::vector<Lane3> p(rule.size);
+  for (int block = 0; block < group.nblocks(); ++block) {
+    const double *origin = &model.origin[3 * ((size_t) group.first_slot + block * LANES)];
+    const int *points = &group.points[(size_t) block * rule.size * LANES];
+    for (int k = 0; k < rule.size; ++k)
+      for (int l = 0; l < LANES; ++l) {
+        const double *point = x[points[k * LANES + l]];
+        p[k].x[l] = point[0] - origin[3 * l];
+        p[k].y[l] = point[1] - origin[3 * l + 1];
+        p[k].z[l] = point[2] - origin[3 * l + 2];
+      }
+
+    Lane counted{};
+    const int faces = std::min(LANES, group.nfaces - block * LANES);
+    for (int l = 0; l < faces; ++l) counted[l] = 1.0;
+    for (int q = 0; q < rule.npoints; ++q) {
+      const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), p);
+      const Lane3 u = combine(rule.row(q, LimitBasis::DU), p);
+      const Lane3 v = combine(rule.row(q, LimitBasis::DV), p);
+      const Lane weight = rule.weight[q] * counted;
+      visit(r,
+            Lane3{weight * (u.y * v.z - u.z * v.y), weight * (u.z * v.x - u.x * v.z),
+                  weight * (u.x * v.y - u.y * v.x)});
+    }
+  }
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::sheet_moments(const FaceGroup &group, const double (*x)[3],
+                                const FaceModel &model, double (&sums)[2])
+{
+  Lane area{}, first{};
+  for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
+    area += n.z;
+    first += r.z * n.z;
+  });
+  sums[0] += total(area);
+  sums[1] += total(first);
+}
+
+/* ----------------------------------------------------------------------
+   powers of exp(-2 pi i s) and exp(-2 pi i t) by multiplication: no sines or cosines per wave
+------------------------------------------------------------------------- */
+
+void Membrane_NS::sheet_waves(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
+                              const SheetFrame &frame, int nmax, double *sums)
+{
+  std::vector<LaneComplex> lanes(1 + count_waves(nmax), LaneComplex{});
+  for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
+    const LaneComplex s = wave(frame.s_x * r.x + frame.s_y * r.y);
+    const LaneComplex t = wave(frame.t_y * r.y), t_back = conjugate(t);
+    const Lane h = r.z - frame.height;
+    LaneComplex middle = {h * n.z, Lane{}};    // h exp(-i q.r) n_z dA of the waves (nx, 0)
+    lanes[0].re += h * middle.re;
+    for (int nx = 0; nx <= nmax; ++nx) {
+      LaneComplex *row = &lanes[nx * (2 * nmax + 1)];
+      LaneComplex forth = middle, back = middle;
+      if (nx > 0) {
+        row[0].re += middle.re;
+        row[0].im += middle.im;
+        for (int ny = 1; ny <= nmax; ++ny) {
+          back = back * t_back;
+          row[-ny].re += back.re;
+          row[-ny].im += back.im;
+        }
+      }
+      for (int ny = 1; ny <= nmax; ++ny) {
+        forth = forth * t;
+        row[ny].re += forth.re;
+        row[ny].im += forth.im;
+      }
+      middle = middle * s;
+    }
+  });
+  for (size_t i = 0; i < lanes.size(); ++i) {
+    sums[2 * i] += total(lanes[i].re);
+    sums[2 * i + 1] += total(lanes[i].im);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::sphere_moments(const FaceGroup &group, const double (*x)[3],
+                                 const FaceModel &model, double (&sums)[4])
+{
+  Lane volume{};
+  Lane3 first{};
+  for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
+    const Lane cone = r.x * n.x + r.y * n.y + r.z * n.z;
+    volume += cone;
+    first.x += cone * r.x;
+    first.y += cone * r.y;
+    first.z += cone * r.z;
+  });
+  sums[0] += total(volume) / 3.0;
+  sums[1] += total(first.x) / 4.0;
+  sums[2] += total(first.y) / 4.0;
+  sums[3] += total(first.z) / 4.0;
+}
+
+/* ----------------------------------------------------------------------
+   With z = cos(theta), P_lm / sin^m(theta) is a polynomial in z, here times N and called Q_lm, and
+   sin^m(theta) exp(i m phi) = (x + i y)^m:
+     Q_00 = 1/sqrt(4 pi),  Q_mm = sqrt((2m+1)/2m) Q_m-1,m-1,
+     Q_lm = a_lm (z Q_l-1,m - Q_l-2,m / a_l-1,m),  a_lm = sqrt((4 l^2 - 1)/(l^2 - m^2))
+------------------------------------------------------------------------- */
+
+void Membrane_NS::sphere_harmonics(const FaceGroup &group, const double (*x)[3],
+                                   const FaceModel &model, double radius, int lmax, double *sums)
+{
+  const int n = lmax + 1;
+  std::vector<double> diagonal(n), a((size_t) n * n, 0.0), inverse((size_t) n * n, 0.0);
+  for (int m = 0; m <= lmax; ++m) {
+    diagonal[m] = m == 0 ? 1.0 / std::sqrt(2.0 * TWO_PI)
+                         : diagonal[m - 1] * std::sqrt((2.0 * m + 1.0) / (2.0 * m));
+    for (int l = m + 1; l <= lmax; ++l) {
+      a[m * n + l] = std::sqrt((4.0 * l * l - 1.0) / ((double) l * l - (double) m * m));
+      inverse[m * n + l] = 1.0 / a[m * n + l];
+    }
+  }
+
+  std::vector<Lane> lanes(count_harmonics(lmax) + 1, Lane{});
+  for_each_point(group, x, model, [&](const Lane3 &p, const Lane3 &area) {
+    const Lane r = sqrt(p.x * p.x + p.y * p.y + p.z * p.z), over_r = 1.0 / r;
+    const Lane z = p.z * over_r;
+    const Lane solid = (p.x * area.x + p.y * area.y + p.z * area.z) * over_r * over_r * over_r;
+    const LaneComplex turn = {p.x * over_r, p.y * over_r};
+    LaneComplex turned = {(r / radius - 1.0) * solid, Lane{}};
+    lanes.back() += solid;
+    for (int m = 0; m <= lmax; ++m) {
+      Lane previous{}, Q = diagonal[m] + Lane{};
+      for (int l = m; l <= lmax; ++l) {
+        if (l > m) {
+          const Lane next = a[m * n + l] * (z * Q - inverse[m * n + l - 1] * previous);
+          previous = Q;
+          Q = next;
+        }
+        const int zonal = l * l + l;
+        lanes[zonal + m] += Q * turned.re;
+        if (m > 0) lanes[zonal - m] += Q * turned.im;
+      }
+      turned = turned * turn;
+      if (m == 0) {
+        turned.re *= std::sqrt(2.0);
+        turned.im *= std::sqrt(2.0);
+      }
+    }
+  });
+  for (size_t i = 0; i < lanes.size(); ++i) sums[i] += total(lanes[i]);
+}

@@ -1,0 +1,75 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_regularization.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace Membrane_NS;
+using Eigen::Map;
+using Eigen::Vector3d;
+
+static const double INVERSE_4_SQRT_3 = 0.25 / std::sqrt(3.0);
+
+double Membrane_NS::face_distortion(const double *pa, const double *pb, const double *pc)
+{
+  const Map<const Vector3d> a(pa), b(pb), c(pc);
+  const double edges = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  return INVERSE_4_SQRT_3 * edges / (0.5 * (b - a).cross(c - a).norm());
+}
+
+double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3],
+                                     const std::vector<double> &modulus, double (*f)[3],
+                                     std::vector<double> &energy, std::vector<double> &virial)
+{
+  double worst = 1.0;
+  for (int s = 0; s < group.nfaces; ++s) {
+    const int slot = group.first_slot + s;
+    if (modulus[slot] == 0.0) continue;
+    const int corner[3] = {group.point(s, 0), group.point(s, 1), group.point(s, 2)};
+    const Vector3d p[3] = {Vector3d(x[corner[0]]), Vector3d(x[corner[1]]), Vector3d(x[corner[2]])};
+    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    const double twice_area = normal.norm(), area = 0.5 * twice_area;
+    const double edges = (p[1] - p[0]).squaredNorm() + (p[2] - p[1]).squaredNorm() +
+        (p[0] - p[2]).squaredNorm();
+    const double dirichlet = INVERSE_4_SQRT_3 * edges;
+    const double ratio = dirichlet / area;
+    worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
+    if (!energy.empty()) energy[slot] += modulus[slot] * (ratio - 1.0);
+
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
+      const Vector3d d_dirichlet = 2.0 * INVERSE_4_SQRT_3 * (2.0 * a - b - c);
+      const Vector3d d_area = 0.5 * normal.cross(c - b) / twice_area;
+      const Vector3d force = -modulus[slot] / area * (d_dirichlet - ratio * d_area);
+      for (int i = 0; i < 3; ++i) f[corner[k]][i] += force[i];
+      if (virial.empty()) continue;
+      const Vector3d r = a - p[0];
+      double *v = &virial[6 * static_cast<size_t>(slot)];
+      v[0] += r[0] * force[0];
+      v[1] += r[1] * force[1];
+      v[2] += r[2] * force[2];
+      v[3] += r[0] * force[1];
+      v[4] += r[0] * force[2];
+      v[5] += r[1] * force[2];
+    }
+  }
+  return worst;
+}
