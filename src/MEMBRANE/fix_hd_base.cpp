@@ -36,10 +36,10 @@ using namespace FixConst;
 // a control point that moves further than this fraction of the longest edge in one step is lost
 static constexpr double MOST_DRIFT = 0.25;
 
-// the limit of stability takes two force evaluations for each of these steps, to a tenth: runs that
-// are too short to make nothing of it go without
-static constexpr int LANCZOS_STEPS = 8;
-static constexpr int WORTH_CHECKING = 400;
+// the limit of stability, to a few percent, takes two force evaluations for each of these steps; runs
+// that are shorter would notice the cost and go without
+static constexpr int LANCZOS_STEPS = 6;
+static constexpr int WORTH_CHECKING = 250;
 
 /* ---------------------------------------------------------------------- */
 
@@ -186,7 +186,7 @@ void FixHDBase::report_runaway(tagint id_of_point)
     reason += fmt::format(", though the stability limit was about {:.3g} when the run began", limit);
   error->one(FLERR,
              "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
-             "hd_timestep finds the limit",
+             "hd_timestep finds the limit precisely",
              style, id_of_point, MOST_DRIFT, reason);
 }
 

@@ -127,17 +127,22 @@ void HDTimestep::command(int narg, char **arg)
 
     // error = a dt^2; the longest step is still off this law
 
-    double log_a = 0.0;
+    double log_a = 0.0, least = HUGE_VAL, most = -HUGE_VAL;
     int n = 0;
     print("  trial step      of limit    relative energy error\n");
     for (const Trial &trial : trials) {
       print(fmt::format("  {:<16.6g}{:<12.4g}{:.3g}\n", trial.dt, trial.dt / limit, trial.error));
       if (&trial == &trials.front() || !(trial.error > 0.0)) continue;
-      log_a += std::log(trial.error / (trial.dt * trial.dt));
+      const double one = std::log(trial.error / (trial.dt * trial.dt));
+      log_a += one;
+      least = std::min(least, one);
+      most = std::max(most, one);
       ++n;
     }
     if (n == 0 || !std::isfinite(log_a))
       error->all(FLERR, "hd_timestep: trial runs gave no energy error; is the state sensible?");
+    if (most - least > std::log(2.0))
+      print("  (not proportional to dt^2: this state changes much within the trial runs)\n");
     dt = std::min(dt, std::sqrt(wanted / std::exp(log_a / n)));
   }
   probe.restore();
@@ -151,7 +156,7 @@ void HDTimestep::command(int narg, char **arg)
   print(fmt::format("  {:<36}{:.4g}{}\n", "present timestep", update->dt,
                     update->dt > limit ? "  (beyond the stability limit)" : ""));
   if (period > 0.0)
-    print(fmt::format("  {:<36}{:.4g}\n", "recommended steps in this time", period / dt));
+    print(fmt::format("  {:<36}{:.0f}\n", "recommended steps in this time", period / dt));
   if (set) input->one(fmt::format("timestep {:.2g}", dt));
 }
 
@@ -218,6 +223,7 @@ void HDTimestep::parse(int narg, char **arg, HDMass &mass, int groupbit)
 void HDTimestep::place_atoms()
 {
   lmp->init();
+  atom->setup();
   if (domain->triclinic) domain->x2lamda(atom->nlocal);
   domain->pbc();
   domain->reset_box();
@@ -329,7 +335,8 @@ bool HDTimestep::start_moving(HDMass &mass, double limit) const
 }
 
 /* ----------------------------------------------------------------------
-   largest change of the energy over a run of velocity Verlet, relative to the mean kinetic energy
+   spread (root mean square deviation) of the energy in a run of velocity Verlet, relative to the
+   mean kinetic energy
 ------------------------------------------------------------------------- */
 
 double HDTimestep::energy_error(HDMass &mass, StiffnessProbe &probe, double dt, int nsteps) const
@@ -352,23 +359,23 @@ double HDTimestep::energy_error(HDMass &mass, StiffnessProbe &probe, double dt, 
   // neighbor lists are not renewed, so whoever has use for them must not go far
 
   const bool other_atoms = atom->natoms > mass.mesh().topology().num_vertices();
-  double potential = probe.evaluate(true), moving = kinetic();
-  const double start = potential + moving;
-  double most = 0.0, sum = 0.0;
+  const double start = probe.evaluate(true) + kinetic();
+  double moving = 0.0, first = 0.0, second = 0.0;    // sums of kinetic and change of energy
   int step = 0;
   for (bool near = true; near && step < nsteps; ++step) {
     kick();
     for (int i = 0; i < part.owned; ++i)
       for (int k = 0; k < 3; ++k)
         atom->x[part.atom_of(i)][k] += dt * atom->v[part.atom_of(i)][k];
-    potential = probe.evaluate(true);
+    const double potential = probe.evaluate(true);
     kick();
-    moving = kinetic();
-    most = std::max(most, std::fabs(potential + moving - start));
-    sum += moving;
+    const double ke = kinetic(), change = potential + ke - start;
+    moving += ke;
+    first += change;
+    second += change * change;
     near = !(other_atoms && neighbor->dist_check && neighbor->check_distance());
   }
-  return most * step / sum;
+  return std::sqrt(std::max(0.0, second / step - first * first / (step * step))) * step / moving;
 }
 
 std::vector<HDTimestep::Trial> HDTimestep::run_trials(HDMass &mass, StiffnessProbe &probe,

@@ -24,7 +24,9 @@
 
 using namespace Membrane_NS;
 
-static constexpr int MOST_POINTS = 192;    // control points of one face
+// beyond, graded rules have thousands of points and their derivative rows overflow
+static constexpr int MOST_VALENCE = 32;
+static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of one face
 
 /* ----------------------------------------------------------------------
    groups
@@ -65,11 +67,11 @@ std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchR
   int slot = 0;
   for (const auto &[valences, list] : members) {
     FaceGroup group;
-    if (valences[0] + valences[1] + valences[2] - 6 > MOST_POINTS)
-      throw MeshError("face " + std::to_string(list[0].face) + " has corners of valence " +
-                      std::to_string(valences[0]) + ", " + std::to_string(valences[1]) + ", " +
-                      std::to_string(valences[2]) + "; their sum may be at most " +
-                      std::to_string(MOST_POINTS + 6));
+    for (int n : valences)
+      if (n > MOST_VALENCE)
+        throw MeshError("face " + std::to_string(list[0].face) + " has a corner of valence " +
+                        std::to_string(n) + "; at most " + std::to_string(MOST_VALENCE) +
+                        " edges may meet in a vertex: remesh there");
     group.rule = &rules.get(valences);
     group.first_slot = slot;
     group.nfaces = static_cast<int>(list.size());
@@ -329,6 +331,7 @@ void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
     if (!out.area.empty()) store(out.area, slot, area);
     if (!volume) continue;
     store(out.volume, slot, enclosed);
+    if (out.vector_area.empty()) continue;
     for (int l = 0; l < LANES; ++l) {
       out.vector_area[3 * (slot + l)] = vector_area.x[l];
       out.vector_area[3 * (slot + l) + 1] = vector_area.y[l];

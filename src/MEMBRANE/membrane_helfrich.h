@@ -26,7 +26,8 @@ constexpr int LANES = 8;
 
 /** Faces that share a quadrature rule, in blocks of LANES. A face of the group has a slot; slots
     of all groups of a mesh are numbered through, so one array per property serves them all. The
-    last block of a group is filled up with copies of its last face, which are not counted. */
+    last block of a group is filled up with copies of its last face: slots from first_slot + nfaces on
+    hold their values and must be left out of sums. Valences up to 32, else MeshError. */
 struct FaceGroup {
   const PatchRule *rule = nullptr;
   int first_slot = 0;
@@ -66,7 +67,7 @@ struct HelfrichTerms {
 struct FaceIntegrals {
   std::vector<double> area;           ///< [slots] dA
   std::vector<double> volume;         ///< [slots] (1/3) (r - origin).n dA
-  std::vector<double> vector_area;    ///< [slots][3] n dA
+  std::vector<double> vector_area;    ///< [slots][3] n dA; comes with the volume only
 };
 
 /// Energies and virials of each face, by slot. Empty arrays are not computed.

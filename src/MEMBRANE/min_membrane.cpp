@@ -84,8 +84,20 @@ void MinMembrane::build_metric()
   shape.lattice << domain->h[0], domain->h[5], domain->h[4], 0.0, domain->h[1], domain->h[3], 0.0,
       0.0, domain->h[2];
   for (int k = 0; k < 3; ++k) shape.periodic[k] = domain->periodicity[k] != 0;
-  Eigen::VectorXd kc = Eigen::VectorXd::Ones(n);
-  metric = std::make_unique<BendingMetric>(shape, topology, kc);
+
+  // bending moduli of the control points, from the pair style
+
+  Pair *pair = force->pair_match("^helfrich", 0);
+  int dim;
+  const auto *modulus = pair ? static_cast<double *>(pair->extract("kc", dim)) : nullptr;
+  if (!modulus) error->all(FLERR, "Min style membrane needs pair style helfrich");
+  Eigen::VectorXd mine = Eigen::VectorXd::Zero(n), kc(n);
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (const int v = mesh->vertex(atom->tag[i]); v >= 0) mine[v] = modulus[atom->type[i]];
+  MPI_Allreduce(mine.data(), kc.data(), n, MPI_DOUBLE, MPI_SUM, world);
+  const double most = kc.maxCoeff();
+  if (most <= 0.0) error->all(FLERR, "Min style membrane needs a membrane with bending modulus");
+  metric = std::make_unique<BendingMetric>(shape, topology, kc.cwiseMax(1.0e-3 * most));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -173,6 +185,11 @@ void MinMembrane::direction()
     const double b = rho[i] * dot(y[i], h);
     for (int k = 0; k < nvec; ++k) h[k] += (a[i] - b) * s[i][k];
   }
+
+  // what fixes such as setforce hold has no force at all; it must not follow its neighbors
+
+  for (int k = 0; k < nvec; ++k)
+    if (fvec[k] == 0.0) h[k] = 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -684,6 +684,19 @@ void PairHelfrich::read_restart(FILE *fp)
 
 /* ---------------------------------------------------------------------- */
 
+// bending moduli by type, for min style membrane
+
+void *PairHelfrich::extract(const char *name, int &dim)
+{
+  dim = 1;
+  if (strcmp(name, "kc") != 0) return nullptr;
+  moduli.resize(coefficients.size());
+  for (size_t t = 0; t < coefficients.size(); ++t) moduli[t] = coefficients[t].kc;
+  return moduli.data();
+}
+
+/* ---------------------------------------------------------------------- */
+
 double PairHelfrich::memory_usage()
 {
   double bytes = Pair::memory_usage();

