@@ -31,6 +31,17 @@ _, parallel, _ = relax(3, ranks=2)
 claim("two ranks find the same minimum", abs(parallel / serial - 1) < 1e-4,
       f"{serial:.6f}, {parallel:.6f}")
 
+for kc in (0.05, 20.0):
+    scaled = SCRIPT.replace("1 1 1.0 0.0", f"1 1 {kc} 0.0").replace("1.0e4", f"{kc * 1e4}")
+    output = run(scaled, args=["-var", "level", 3])
+    claim(f"kc = {kc}: the same minimum in other energy units",
+          abs(thermo(output)[-1]["c_e[1]"] / kc / serial - 1) < 1e-4,
+          f'{thermo(output)[-1]["c_e[1]"] / kc:.5f}')
+
+output = run(SCRIPT.replace("minimize  ", "group held id 1 2 3\nfix held held setforce 0 0 0\n"
+                            "variable x equal x[1]\nthermo_style custom step v_x\nminimize  "))
+claim("fix setforce 0 holds control points", len({row["v_x"] for row in thermo(output)[1:]}) == 1)
+
 output = run(SCRIPT.replace("create_box      1", "create_box      2").replace(
     "pair_coeff      1 1 1.0 0.0\n",
     "create_atoms    2 single 2 2 2\ncreate_atoms    2 single 2.5 2 2\npair_coeff      1 1 1.0 0.0\n", 1)
