@@ -408,6 +408,28 @@ void DistributedMesh::unwrap()
                    total);
 }
 
+/* ----------------------------------------------------------------------
+   whether coordinates differ from those of the last unwrap(), other than by wrapping; collective
+------------------------------------------------------------------------- */
+
+bool DistributedMesh::moved_since_unwrap()
+{
+  const double tiny = 1.0e-12 * edge_max * edge_max;
+  int mine = 0, any;
+  for (int i = 0; i < atom->nlocal && !mine; ++i) {
+    const int v = vertex(atom->tag[i]);
+    if (v < 0) continue;
+    double d[3];
+    domain->unmap(atom->x[i], atom->image[i], d);
+    for (int k = 0; k < 3; ++k) d[k] -= whole[3 * (size_t) v + k];
+    const auto images = nearest_image(domain, d);
+    mine = !(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= tiny) ||
+        (closed[topo.component(v)] && (images[0] || images[1] || images[2]));
+  }
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void DistributedMesh::measure_reach()
@@ -439,7 +461,7 @@ void DistributedMesh::refresh()
 
   // rerun reads coordinates, perhaps without image flags, between update() and setup
 
-  if (rebuilt && lmp->update->setupflag) unwrap();
+  if (rebuilt && lmp->update->setupflag && moved_since_unwrap()) unwrap();
   stale = false;
   seen_ncalls = neighbor->ncalls;
   seen_lastcall = neighbor->lastcall;

@@ -118,6 +118,7 @@ class DistributedMesh : protected Pointers {
   void rebuild(const AngleList &);
   void report_missing_atoms();
   void unwrap();
+  bool moved_since_unwrap();
   void measure_reach();
 };
 

@@ -30,6 +30,7 @@
 #include "thermo.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -56,20 +57,25 @@ static constexpr double WIDTH = 2.5;          // of the range of colors, in stan
 static constexpr double LEAST_WIDTH = 0.5;    // and at least this part of the mean
 
 /* ----------------------------------------------------------------------
-   defaults that suit a surface go before the user's settings; DumpCustom accepts these for a style
-   named image only
+   defaults that suit a surface, for what the user does not set. They go last, so that errors point
+   at the right argument. DumpCustom accepts keywords for a style named image only
 ------------------------------------------------------------------------- */
 
 static std::vector<char *> with_defaults(int narg, char **arg)
 {
   static constexpr int REQUIRED = 7;    // ID group style N file color diameter
-  static const char *const defaults[] = {"fsaa", "yes",   "zoom",  "1.25", "box",
-                                         "yes",  "0.004", "shiny", "0.3"};
+  static const std::vector<std::vector<const char *>> defaults = {
+      {"fsaa", "yes"}, {"zoom", "1.25"}, {"box", "yes", "0.004"}, {"shiny", "0.3"}};
   std::vector<char *> args(arg, arg + narg);
   args[2] = const_cast<char *>("image");
-  if (narg >= REQUIRED)
-    for (int i = sizeof(defaults) / sizeof(*defaults) - 1; i >= 0; --i)
-      args.insert(args.begin() + REQUIRED, const_cast<char *>(defaults[i]));
+  if (narg < REQUIRED) return args;
+  for (const auto &setting : defaults) {
+    const bool is_set = std::any_of(arg + REQUIRED, arg + narg, [&](const char *word) {
+      return strcmp(word, setting[0]) == 0;
+    });
+    if (is_set) continue;
+    for (const char *word : setting) args.push_back(const_cast<char *>(word));
+  }
   return args;
 }
 

@@ -112,7 +112,12 @@ FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &use
 void FixHDBase::setup(int)
 {
   accelerate();
-  limit_due = check && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
+
+  // r-RESPA has several timesteps: no limit is known for it
+
+  const bool respa = utils::strmatch(update->integrate_style, "^respa");
+  if (respa) limit = 0.0;
+  limit_due = check && !respa && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
 }
 
 /* ----------------------------------------------------------------------

@@ -38,7 +38,7 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
 {
   if (narg < 7) utils::missing_cmd_args(FLERR, "fix hd/langevin", error);
   scalar_flag = global_freq = extscalar = 1;
-  ecouple_flag = 1;
+  energy_global_flag = ecouple_flag = 1;
   restart_global = 1;
 
   t_start = utils::numeric(FLERR, arg[3], false, lmp);

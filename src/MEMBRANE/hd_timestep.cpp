@@ -49,7 +49,7 @@ using MathConst::MY_2PI;
 static constexpr int MOST_STEPS = 400;
 static constexpr double TOLERANCE = 1.0e-4;
 
-// trial runs at these fractions of the limit; each lasts three periods of the fastest motion
+// trial runs at these fractions of the limit; each lasts four periods of the fastest motion
 static constexpr int FRACTIONS[] = {2, 3, 4, 8};
 static constexpr int TRIAL_TIME = 12;
 
@@ -99,6 +99,7 @@ void HDTimestep::command(int narg, char **arg)
   const double limit = 2.0 / fastest;
 
   static const char *const NAMES[] = {"vertex", "consistent", "lumped"};
+  fprintf(stderr,"EVALS %d\n",largest.evaluations);
   print(fmt::format("Timestep for {} control points, mass {}:\n", mass.count(),
                     NAMES[(int) mass.settings.kind]));
   print(fmt::format("  {:<36}{:.6g}\n", overdamped ? "largest relaxation rate" : "largest frequency",

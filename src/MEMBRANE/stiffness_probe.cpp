@@ -63,13 +63,13 @@ bool StiffnessProbe::has_forces() const
   return which == Forces::MEMBRANE ? helfrich != nullptr : force->pair != nullptr;
 }
 
+// pair styles may remember where they were last, so that has to be the same as before, too
+
 void StiffnessProbe::restore()
 {
-  for (int i = 0; i < atom->nlocal; ++i) {
-    std::copy_n(x_before[i].data(), 3, atom->x[i]);
-    std::copy_n(f_before[i].data(), 3, atom->f[i]);
-  }
-  comm->forward_comm();
+  for (int i = 0; i < atom->nlocal; ++i) std::copy_n(x_before[i].data(), 3, atom->x[i]);
+  evaluate(false);
+  for (int i = 0; i < atom->nlocal; ++i) std::copy_n(f_before[i].data(), 3, atom->f[i]);
 }
 
 /* ----------------------------------------------------------------------

@@ -43,8 +43,8 @@ def check_with_numdiff(name, scene, ranks=1, **options):
         (error, scale), = numdiff_error(f"forces.{i}.dump")
         worst[term] = error / scale if scale > 1e-3 else float("inf")
     where = max(worst, key=worst.get)
-    claim(f"{name}{how and ' (' + how + ')'}: forces of each of {len(worst)} terms agree with fix numdiff to 1e-7",
-          worst[where] < 1e-7, f"worst {worst[where]:.1e} ({where})")
+    claim(f"{name}{how and ' (' + how + ')'}: forces of each of {len(worst)} terms agree with fix numdiff to 1e-8",
+          worst[where] < 1e-8, f"worst {worst[where]:.1e} ({where})")
 
 
 # === fix numdiff, term by term
@@ -117,7 +117,7 @@ for newton in ("on", "off"):
         run(setup + overlay + "run 0 post no\n" + scene.shake(5) + NUMDIFF.format("all", "solvent.dump") +
             "run 0 post no\n")
         (error, scale), = numdiff_error("solvent.dump")
-        claim(f"with solvent, hybrid/overlay {first} {second}, newton {newton}: forces agree with fix numdiff to 1e-7",
-              error < 1e-7 * scale, f"{error / scale:.1e}")
+        claim(f"with solvent, hybrid/overlay {first} {second}, newton {newton}: forces agree with fix numdiff to 1e-8",
+              error < 1e-8 * scale, f"{error / scale:.1e}")
 
 finish()

@@ -1,0 +1,198 @@
+"""Waves on a sheet and oscillations of a sphere have the frequencies of theory with fix hd/nve."""
+
+import math
+
+from lammps_claims import claim, finish, run, thermo
+
+MASSES = ("vertex", "consistent", "lumped")
+RULES = (1, 3, 6)
+
+# === What the discrete system should do: waves exp(i q.r) on the infinite regular lattice of edge 1,
+# kc = rho = 1. The second derivative of the box spline along an edge is the second difference of
+# the piecewise bilinear function on the two other edges, and the Laplacian is 2/3 of the sum of
+# those along the three edges.
+
+EDGES = ((1.0, 0.0), (0.5, math.sqrt(0.75)), (-0.5, math.sqrt(0.75)))
+A1, A2 = 0.445948490915965, 0.091576213509771
+W1, W2 = 0.223381589678011, 0.109951743655322
+POINTS = {1: ((1 / 3, 1 / 3, 1.0),),
+          3: ((1 / 6, 1 / 6, 1 / 3), (1 / 6, 2 / 3, 1 / 3), (2 / 3, 1 / 6, 1 / 3)),
+          6: tuple((u, v, w) for a, w in ((A1, W1), (A2, W2))
+                   for u, v in ((a, a), (a, 1 - 2 * a), (1 - 2 * a, a)))}
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def bilinear(q, j, k, s, t):
+    """At s e_j + t e_k of what is exp(i q.r) on the lattice."""
+    i, m = math.floor(s), math.floor(t)
+    total = 0.0
+    for di, wi in ((0, 1 - s + i), (1, s - i)):
+        for dm, wm in ((0, 1 - t + m), (1, t - m)):
+            phase = (i + di) * dot(q, EDGES[j]) + (m + dm) * dot(q, EDGES[k])
+            total += wi * wm * complex(math.cos(phase), math.sin(phase))
+    return total
+
+
+def stiffness(q, rule):
+    """Mean square Laplacian over the points of an upright and a reversed face."""
+    factor = [-8 / 3 * math.sin(0.5 * dot(q, e)) ** 2 for e in EDGES]
+    total = 0.0
+    for u, v, weight in POINTS[rule]:
+        for s, t in ((u, v), (1 - u, 1 - v)):    # of s e_1 + t e_2, with e_2 = e_1 + e_3
+            laplacian = (factor[0] * bilinear(q, 1, 2, s + t, -s) +
+                         factor[1] * bilinear(q, 0, 2, s + t, t) +
+                         factor[2] * bilinear(q, 0, 1, s, t))
+            total += 0.5 * weight * abs(laplacian) ** 2
+    return total
+
+
+def inertia(q, mass):
+    if mass == "lumped":
+        return 1.0
+    if mass == "vertex":
+        return (0.5 + sum(math.cos(dot(q, e)) for e in EDGES) / 6) ** 2
+    row = {0: 1979 / 7560, 1: 18871 / 181440, 3: 85 / 6048, 4: 31 / 6480, 7: 17 / 181440, 9: 1 / 181440}
+    total = 0.0
+    for i in range(-3, 4):
+        for k in range(-3, 4):
+            shell = i * i + i * k + k * k    # squared length of i e_1 + k e_2
+            total += row.get(shell, 0.0) * math.cos(i * dot(q, EDGES[0]) + k * dot(q, EDGES[1]))
+    return total
+
+
+def frequency(q, rule, mass):
+    return math.sqrt(stiffness(q, rule) / inertia(q, mass))
+
+
+# omega/q^2 - 1 at a wavelength along an edge (x) and across (y), computed by others: vertex,
+# consistent, lumped mass for each quadrature
+REFERENCE = {
+    (8, "x", 1): (-1.347168e-02, -1.315491e-02, -8.666126e-02),
+    (8, "x", 3): (-2.356871e-04, 8.533390e-05, -7.440723e-02),
+    (8, "x", 6): (-2.547561e-04, 6.625872e-05, -7.442488e-02),
+    (8, "y", 1): (-1.360754e-02, -1.328070e-02, -8.677720e-02),
+    (8, "y", 3): (-1.656475e-04, 1.656471e-04, -7.433242e-02),
+    (8, "y", 6): (-1.656475e-04, 1.656471e-04, -7.433242e-02),
+    (16, "x", 1): (-3.250323e-03, -3.231442e-03, -2.227992e-02),
+    (16, "x", 3): (-1.391322e-05, 5.028885e-06, -1.910530e-02),
+    (16, "x", 6): (-1.507119e-05, 3.870891e-06, -1.910643e-02),
+    (16, "y", 1): (-3.258641e-03, -3.239607e-03, -2.228792e-02),
+    (16, "y", 3): (-9.547943e-06, 9.547953e-06, -1.910086e-02),
+    (16, "y", 6): (-9.547943e-06, 9.547953e-06, -1.910086e-02),
+}
+worst = 0.0
+for (wavelength, direction, rule), values in REFERENCE.items():
+    size = 2 * math.pi / wavelength
+    q = (size, 0.0) if direction == "x" else (0.0, size)
+    for mass, value in zip(MASSES, values):
+        worst = max(worst, abs(frequency(q, rule, mass) / size**2 - 1 - value))
+claim("the lattice sums of this test are those of the reference", worst < 1e-8, f"{worst:.1e}")
+
+# === Waves on a sheet. Rows of points are along x, so across them no wave is 8 or 16 edges long:
+# these are compared to the lattice sums.
+
+NX, NY = 16, 18
+AMPLITUDE = 1e-6
+WAVES = ((1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, -1))
+NMAX = 2
+
+
+def wave_vector(nx, ny):
+    return 2 * math.pi * nx / NX, 2 * math.pi * ny / (NY * EDGES[1][1])
+
+
+def row_of(nx, ny):
+    return nx * (2 * NMAX + 1) + ny
+
+
+def sheet(rule, wave, box=""):
+    """A sheet at rest with one wave; areas and masses such that rho = 1."""
+    qx, qy = wave_vector(*wave)
+    return f"""
+clear
+units           lj
+atom_style      membrane_cp
+region          box block 0 {NX} 0 {NY * EDGES[1][1]!r} -4 4
+create_box      1 box angle/types 1
+create_membrane 1 plane {NX} {NY} mass {EDGES[1][1]!r}
+pair_style      helfrich quadrature {rule}
+pair_coeff      1 1 1.0 0.0 {box}
+variable        z atom {AMPLITUDE!r}*cos({qx!r}*x+({qy!r})*y)
+set             group all z v_z
+variable        z delete
+compute         m all hd/modes plane {NMAX}
+thermo_style    custom step c_m[{row_of(*wave)}][4] c_m[{row_of(*wave)}][5]
+thermo_modify   norm no format float %24.17g
+"""
+
+
+def amplitudes(rows, wave):
+    return [row[f"c_m[{row_of(*wave)}][4]"] for row in rows]
+
+
+# One step of velocity Verlet from rest takes a harmonic mode to 1 - (omega dt)^2/2 times itself,
+# exactly and for any dt; omega dt = 1 here
+
+CASES = [(rule, mass, wave) for rule in RULES for mass in MASSES for wave in WAVES]
+text = ""
+for rule, mass, wave in CASES:
+    step = 1 / dot(wave_vector(*wave), wave_vector(*wave))
+    text += sheet(rule, wave) + f"fix 1 all hd/nve mass {mass} tol 1e-12\ntimestep {step!r}\nrun 1\n"
+rows = thermo(run(text))
+claim("every case ran", len(rows) == 2 * len(CASES), len(rows))
+worst, published = {}, 0.0
+for i, (rule, mass, wave) in enumerate(CASES):
+    q = wave_vector(*wave)
+    before, after = amplitudes(rows[2 * i:2 * i + 2], wave)
+    omega = math.sqrt(2 * (1 - after / before)) * dot(q, q)
+    error = omega / frequency(q, rule, mass) - 1
+    worst[rule, mass] = max(worst.get((rule, mass), 0.0), abs(error))
+    if wave[1] == 0:
+        value = REFERENCE[NX // wave[0], "x", rule][MASSES.index(mass)]
+        off = omega / dot(q, q) - 1 - value
+        published = max(published, abs(off))
+        claim(f"wave of {NX // wave[0]} edges along x, quadrature {rule}, mass {mass}: omega/q^2 - 1",
+              abs(off) < 1e-6, f"{omega / dot(q, q) - 1:.6e} against {value:.6e}")
+for (rule, mass), error in worst.items():
+    claim(f"quadrature {rule}, mass {mass}: omega of all waves is the lattice's", error < 1e-8,
+          f"within {error:.1e}")
+
+# === A wave with tension
+
+tension = 0.7
+for wave in WAVES[:2]:
+    q2 = dot(wave_vector(*wave), wave_vector(*wave))
+    theory = math.sqrt(q2 * q2 + tension * q2)
+    text = sheet(6, wave, f"tension {tension}") + f"fix 1 all hd/nve\ntimestep {1 / theory!r}\nrun 1\n"
+    before, after = amplitudes(thermo(run(text)), wave)
+    omega = math.sqrt(2 * (1 - after / before)) * theory
+    claim(f"wave of {NX // wave[0]} edges with tension: omega^2 = (kc q^4 + sigma q^2)/rho",
+          abs(omega / theory - 1) < 3e-4, f"{omega / theory - 1:.1e}")
+
+# === Three periods: h((n+k) dt) + h((n-k) dt) = 2 cos(k omega' dt) h(n dt), with
+# sin(omega' dt/2) = omega dt/2 for the leapfrog's frequency omega'
+
+STEP, EVERY, STEPS = 0.02, 10, 1600
+for mass in MASSES:
+    wave = (2, 0)
+    rows = thermo(run(sheet(6, wave) + f"fix 1 all hd/nve mass {mass}\ntimestep {STEP}\n"
+                      f"thermo {EVERY}\nrun {STEPS}\n"))
+    h = amplitudes(rows, wave)
+    k = 20
+    middle = range(k, len(h) - k)
+    cosine = (sum(h[n] * (h[n + k] + h[n - k]) for n in middle) /
+              (2 * sum(h[n] ** 2 for n in middle)))
+    measured = math.acos(cosine) / (k * EVERY * STEP)
+    omega = 2 / STEP * math.sin(0.5 * measured * STEP)
+    value = REFERENCE[8, "x", 6][MASSES.index(mass)]
+    off = omega / dot(wave_vector(*wave), wave_vector(*wave)) - 1 - value
+    periods = omega * STEP * STEPS / 2 / math.pi
+    claim(f"{periods:.1f} periods of a wave of 8 edges, mass {mass}: omega/q^2 - 1", abs(off) < 1e-7,
+          f"{value + off:.7e} against {value:.7e}")
+    still = max(abs(row[f"c_m[{row_of(*wave)}][5]"]) for row in rows) / h[0]
+    claim(f"mass {mass}: a standing wave stays where it is", still < 1e-9, f"{still:.1e}")
+
+finish()
