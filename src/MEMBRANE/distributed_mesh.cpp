@@ -144,23 +144,6 @@ void DistributedMesh::update()
       MAX(comm->cutghostuser, MAX(REACH_MARGIN * reach_max, edge_max + neighbor->skin));
 }
 
-/* ---------------------------------------------------------------------- */
-
-void DistributedMesh::update_for_command()
-{
-  lmp->init();
-  if (domain->triclinic) domain->x2lamda(atom->nlocal);
-  domain->pbc();
-  domain->reset_box();
-  comm->setup();
-  if (neighbor->style) neighbor->setup_bins();
-  comm->exchange();
-  comm->borders();
-  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
-  update();
-  refresh();
-}
-
 /* ----------------------------------------------------------------------
    number vertices and faces, and build the topology
 ------------------------------------------------------------------------- */

@@ -49,9 +49,6 @@ class DistributedMesh : protected Pointers {
   void update();
   /// Counts topologies: differs after an update() that found changed faces.
   int generation() const { return version; }
-  /// Like update(), for commands: wraps, exchanges and ghosts the atoms, so that the rank's part
-  /// can be used at once.
-  void update_for_command();
 
   // === The whole mesh, the same on every rank
 
@@ -70,9 +67,8 @@ class DistributedMesh : protected Pointers {
   bool is_closed_membrane(int membrane) const;
   /// How a face is named to the user: by the atom IDs of its corners.
   std::string face_name(int f) const;
-  /// Longest edge, and longest distance from a face's corner to a point of its stencil, at update().
+  /// Longest edge at update().
   double longest_edge() const { return edge_max; }
-  double longest_reach() const { return reach_max; }
   /// Unwrapped coordinates of all vertices at the last update(), [vertices][3]: each connected
   /// component in one piece.
   const std::vector<double> &unwrapped() const { return whole; }

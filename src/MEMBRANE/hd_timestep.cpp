@@ -99,7 +99,6 @@ void HDTimestep::command(int narg, char **arg)
   const double limit = 2.0 / fastest;
 
   static const char *const NAMES[] = {"vertex", "consistent", "lumped"};
-  fprintf(stderr,"EVALS %d\n",largest.evaluations);
   print(fmt::format("Timestep for {} control points, mass {}:\n", mass.count(),
                     NAMES[(int) mass.settings.kind]));
   print(fmt::format("  {:<36}{:.6g}\n", overdamped ? "largest relaxation rate" : "largest frequency",

@@ -3,6 +3,7 @@
 import math
 
 from lammps_claims import claim, finish, run, thermo
+from membrane_scenes import write_off
 
 MASSES = ("vertex", "consistent", "lumped")
 RULES = (1, 3, 6)
@@ -194,5 +195,119 @@ for mass in MASSES:
           f"{value + off:.7e} against {value:.7e}")
     still = max(abs(row[f"c_m[{row_of(*wave)}][5]"]) for row in rows) / h[0]
     claim(f"mass {mass}: a standing wave stays where it is", still < 1e-9, f"{still:.1e}")
+
+# === A sphere: all harmonics of l = 2..5 at once, on the relaxed mesh
+
+
+def read_data(path):
+    """Points and faces of a data file."""
+    section, points, faces = "", {}, []
+    with open(path) as file:
+        for line in file:
+            words = line.split("#")[0].split()
+            if words[:1] in (["Atoms"], ["Angles"], ["Velocities"]):
+                section = words[0]
+            elif words and section == "Atoms":
+                points[int(words[0])] = [float(word) for word in words[4:7]]
+            elif words and section == "Angles":
+                faces.append(tuple(int(word) - 1 for word in words[2:5]))
+    return [points[i] for i in sorted(points)], faces
+
+
+def harmonics(point, lmax):
+    """Real orthonormal Y_lm in the direction of a point, without the phase (-1)^m."""
+    r = math.hypot(*point)
+    x, y, z = (c / r for c in point)
+    table, sectoral = {}, math.sqrt(1 / (4 * math.pi))
+    for m in range(lmax + 1):
+        sectoral *= math.sqrt((2 * m + 1) / (2 * m)) if m else 1
+        turn = complex(x, y) ** m
+        last, value = 0.0, sectoral
+        for l in range(m, lmax + 1):
+            if l > m:
+                a = math.sqrt((4 * l * l - 1) / (l * l - m * m))
+                b = math.sqrt(((l - 1) ** 2 - m * m) / (4 * (l - 1) ** 2 - 1)) if l > m + 1 else 0
+                last, value = value, a * (z * value - b * last)
+            table[l, m] = value * turn.real * (math.sqrt(2) if m else 1)
+            if m:
+                table[l, -m] = value * turn.imag * math.sqrt(2)
+    return table
+
+
+def frequency_of(t, u, guess):
+    """omega of the best u = a cos(omega t) + b by golden section within 10 % of a guess."""
+    def misfit(omega):
+        c = [math.cos(omega * time) for time in t]
+        n, sc, su = len(t), sum(c), sum(u)
+        a = (n * sum(map(float.__mul__, c, u)) - sc * su) / (n * sum(x * x for x in c) - sc * sc)
+        b = (su - a * sc) / n
+        return sum((y - a * x - b) ** 2 for x, y in zip(c, u))
+    low, high, golden = 0.9 * guess, 1.1 * guess, 0.5 * (math.sqrt(5) - 1)
+    for _ in range(40):
+        left, right = high - golden * (high - low), low + golden * (high - low)
+        if misfit(left) < misfit(right):
+            high = right
+        else:
+            low = left
+    return 0.5 * (low + high)
+
+
+LMAX, U = 5, 1e-5
+KEYS = [(l, m) for l in range(2, LMAX + 1) for m in range(-l, l + 1)]
+
+
+def vesicle(shape, c0, terms):
+    return f"""
+units           lj
+atom_style      membrane_cp
+region          box block -2 2 -2 2 -2 2
+create_box      1 box angle/types 1
+create_membrane 1 {shape}
+pair_style      helfrich
+pair_coeff      1 1 1.0 {c0} {terms}
+compute         s all membrane/shape
+thermo_modify   norm no format float %24.17g
+"""
+
+
+def oscillate(level, c0, modulus, step, steps, tolerance):
+    area, volume = 4 * math.pi, 4 * math.pi / 3
+    terms = f"area {modulus} {area!r} volume {modulus} {volume!r}"
+    run(vesicle(f"sphere {level} 1.0 interpolate yes", c0, terms) +
+        "min_style membrane\nminimize 0 0 100 2000\nwrite_data relaxed.data nocoeff\n")
+    points, faces = read_data("relaxed.data")
+    excited = []
+    for point in points:
+        table = harmonics(point, LMAX)
+        stretch = 1 + U * sum(table[l, m] * (1 if (l + m) % 3 else -1) for l, m in KEYS)
+        excited.append([stretch * c for c in point])
+    write_off("excited.off", excited, faces)
+    rho = 1.7    # of the reference area
+    columns = " ".join(f"c_m[{l * l + l + m + 1}][4]" for l, m in KEYS)
+    rows = thermo(run(vesicle(f"file excited.off mass {rho * area / len(points)!r}", c0, terms) + f"""
+compute         m all hd/modes sphere {LMAX}
+thermo_style    custom step c_s[1] c_m[1] {columns}
+thermo_modify   norm no format float %24.17g
+fix             1 all hd/nve
+timestep        {step!r}
+thermo          {steps // 80}
+run             {steps}
+"""))
+    t = [row["Step"] * step for row in rows]
+    R, A = rows[0]["c_m[1]"], rows[0]["c_s[1]"]
+    sigma = modulus * (A - area) / area
+    s = sigma * R**2 - 2 * c0 * R + 0.5 * (c0 * R) ** 2
+    for l in range(2, LMAX + 1):
+        theory = math.sqrt((l - 1) * (l + 2) * (l * (l + 1) + s) / (rho * area / A) / R**4)
+        errors = [frequency_of(t, [row[f"c_m[{l * l + l + m + 1}][4]"] for row in rows], theory) / theory - 1
+                  for m in range(-l, l + 1)]
+        mean = sum((1 + error) ** 2 for error in errors) / len(errors) - 1
+        claim(f"sphere of {len(points)} points, c0 = {c0}, s = {s:.3f}: omega_{l}^2 is that of theory",
+              max(abs((1 + error) ** 2 - 1) for error in errors) < tolerance,
+              f"mean {mean:.1e}, worst {max(map(abs, errors)) * 2:.1e}")
+
+
+oscillate(4, 0.0, 10.0, 5e-4, 2000, 0.01)
+oscillate(3, 1.0, 100.0, 2e-3, 500, 0.02)
 
 finish()
