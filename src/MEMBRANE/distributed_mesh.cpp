@@ -91,7 +91,7 @@ template <typename T> static std::vector<T> gather_all(const std::vector<T> &min
 {
   int nprocs;
   MPI_Comm_size(world, &nprocs);
-  const int bytes = static_cast<int>(mine.size() * sizeof(T));
+  int bytes = static_cast<int>(mine.size() * sizeof(T));    // LAMMPS' stand-in for MPI wants it writable
   std::vector<int> counts(nprocs), starts(nprocs, 0);
   MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
@@ -125,8 +125,8 @@ void DistributedMesh::update()
     for (int k = 0; k < AngleList::WIDTH; ++k) h = mix(h + (uint64_t) angles.data[i + k]);
     sum += h;
   }
-  uint64_t total;
-  MPI_Allreduce(&sum, &total, 1, MPI_UINT64_T, MPI_SUM, world);
+  bigint mine = static_cast<bigint>(sum), total;
+  MPI_Allreduce(&mine, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
 
   if (version == 0 || total != fingerprint) {
     rebuild(angles);

@@ -94,7 +94,7 @@ class DistributedMesh : protected Pointers {
  private:
   std::string face_types = "*";
   int version = 0;
-  uint64_t fingerprint = 0;
+  bigint fingerprint = 0;    // of all faces
 
   Membrane_NS::Topology topo;
   std::vector<tagint> tags;

@@ -258,7 +258,7 @@ template <typename Pointer> static void close_file(Pointer &fp, int /*compressed
   fp = nullptr;
 }
 
-static void close_file(FILE *&fp, int compressed)
+[[maybe_unused]] static void close_file(FILE *&fp, int compressed)
 {
   if (compressed)
     platform::pclose(fp);

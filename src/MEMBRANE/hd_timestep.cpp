@@ -41,9 +41,9 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
+using MathConst::MY_2PI;
 using Membrane_NS::TriangleMesh;
 using Membrane_NS::VertexField;
-using MathConst::MY_2PI;
 
 // the largest eigenvalue to 1e-4 of itself, as a rule far better
 static constexpr int MOST_STEPS = 400;
@@ -72,7 +72,8 @@ HDTimestep::HDTimestep(LAMMPS *lmp) :
 void HDTimestep::command(int narg, char **arg)
 {
   if (!domain->box_exist)
-    error->all(FLERR, "hd_timestep needs control points: use it after create_membrane or read_data");
+    error->all(FLERR,
+               "hd_timestep needs control points: use it after create_membrane or read_data");
   if (narg < 1) utils::missing_cmd_args(FLERR, "hd_timestep", error);
   const int igroup = group->find(arg[0]);
   if (igroup < 0) error->all(FLERR, "Could not find hd_timestep group ID {}", arg[0]);
@@ -82,8 +83,7 @@ void HDTimestep::command(int narg, char **arg)
 
   place_atoms();
   mass.init(true);
-  if (mass.count() == 0)
-    error->all(FLERR, "hd_timestep: group {} has no control points", arg[0]);
+  if (mass.count() == 0) error->all(FLERR, "hd_timestep: group {} has no control points", arg[0]);
 
   // the first forces are those of the present configuration: "init" of pair_coeff is taken here
 
@@ -101,8 +101,8 @@ void HDTimestep::command(int narg, char **arg)
   static const char *const NAMES[] = {"vertex", "consistent", "lumped"};
   print(fmt::format("Timestep for {} control points, mass {}:\n", mass.count(),
                     NAMES[(int) mass.settings.kind]));
-  print(fmt::format("  {:<36}{:.6g}\n", overdamped ? "largest relaxation rate" : "largest frequency",
-                    fastest));
+  print(fmt::format("  {:<36}{:.6g}\n",
+                    overdamped ? "largest relaxation rate" : "largest frequency", fastest));
   if (largest.uncertainty > TOLERANCE * largest.value)
     print(fmt::format("  (Lanczos' method did not converge: true to {:.1g} only)\n",
                       largest.uncertainty / largest.value));
@@ -264,7 +264,8 @@ VertexField HDTimestep::mode_shape(HDMass &mass) const
 
   std::vector<Eigen::Vector3d> middle(ncomponents, Eigen::Vector3d::Zero());
   for (int v = 0; v < topology.num_vertices(); ++v)
-    middle[topology.component(v)] += control.points[v] / topology.num_vertices(topology.component(v));
+    middle[topology.component(v)] +=
+        control.points[v] / topology.num_vertices(topology.component(v));
 
   // fractional coordinate to a phase; zero where there is nothing to do
 
@@ -296,8 +297,7 @@ VertexField HDTimestep::mode_shape(HDMass &mass) const
     const int v = part.vertices[i], c = topology.component(v);
     if (degree ? !mesh.is_closed(c) : wave[c].isZero()) continue;
     const Eigen::Vector3d r = control.points[v] - middle[c];
-    const double height =
-        degree ? legendre(degree, r.normalized().z()) : std::cos(wave[c].dot(r));
+    const double height = degree ? legendre(degree, r.normalized().z()) : std::cos(wave[c].dot(r));
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     const auto ring = topology.ring(v);
     const int n = topology.valence(v);
@@ -365,8 +365,7 @@ double HDTimestep::energy_error(HDMass &mass, StiffnessProbe &probe, double dt, 
   for (bool near = true; near && step < nsteps; ++step) {
     kick();
     for (int i = 0; i < part.owned; ++i)
-      for (int k = 0; k < 3; ++k)
-        atom->x[part.atom_of(i)][k] += dt * atom->v[part.atom_of(i)][k];
+      for (int k = 0; k < 3; ++k) atom->x[part.atom_of(i)][k] += dt * atom->v[part.atom_of(i)][k];
     const double potential = probe.evaluate(true);
     kick();
     const double ke = kinetic(), change = potential + ke - start;

@@ -48,7 +48,8 @@ HDVelocity::HDVelocity(LAMMPS *lmp) :
 void HDVelocity::command(int narg, char **arg)
 {
   if (!domain->box_exist)
-    error->all(FLERR, "hd_velocity needs control points: use it after create_membrane or read_data");
+    error->all(FLERR,
+               "hd_velocity needs control points: use it after create_membrane or read_data");
   if (narg < 3) utils::missing_cmd_args(FLERR, "hd_velocity", error);
   const int igroup = group->find(arg[0]);
   if (igroup < 0) error->all(FLERR, "Could not find hd_velocity group ID {}", arg[0]);
@@ -56,8 +57,7 @@ void HDVelocity::command(int narg, char **arg)
   parse(narg, arg, mass, group->bitmask[igroup]);
 
   mass.init(true);
-  if (mass.count() == 0)
-    error->all(FLERR, "hd_velocity: group {} has no control points", arg[0]);
+  if (mass.count() == 0) error->all(FLERR, "hd_velocity: group {} has no control points", arg[0]);
   mass.refresh();
 
   // the mass of LAMMPS' units times velocity squared is energy over mvv2e
@@ -109,8 +109,9 @@ void HDVelocity::parse(int narg, char **arg, HDMass &mass, int groupbit)
                  "Unknown hd_velocity keyword {}; known are: mass, solver, tol, mom, rot, scale",
                  key);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "hd_velocity " + key, error);
-    (key == "mom" ? momentum : key == "rot" ? rotation : scale) =
-        utils::logical(FLERR, arg[iarg + 1], false, lmp);
+    (key == "mom"       ? momentum
+         : key == "rot" ? rotation
+                        : scale) = utils::logical(FLERR, arg[iarg + 1], false, lmp);
     iarg += 2;
   }
 }
@@ -145,8 +146,7 @@ double HDVelocity::remove_rigid_motion(HDMass &mass, VertexField &v)
 
   std::vector<VertexField> motion(n, VertexField(v.size()));
   for (int i = 0; i < part.owned; ++i) {
-    const Eigen::Vector3d r =
-        Eigen::Vector3d(&mesh.unwrapped()[3 * part.vertices[i]]) - middle;
+    const Eigen::Vector3d r = Eigen::Vector3d(&mesh.unwrapped()[3 * part.vertices[i]]) - middle;
     for (int m = 0; m < n; ++m) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit((first + m) % 3);
       Eigen::Map<Eigen::Vector3d>(motion[m][i].c) = first + m < 3 ? axis : axis.cross(r);
@@ -166,8 +166,7 @@ double HDVelocity::remove_rigid_motion(HDMass &mass, VertexField &v)
   }
   part.sum(inertia.data(), inertia.size());
 
-  const Eigen::VectorXd rate =
-      inertia.topLeftCorner(n, n).ldlt().solve(inertia.col(6).head(n));
+  const Eigen::VectorXd rate = inertia.topLeftCorner(n, n).ldlt().solve(inertia.col(6).head(n));
   for (int i = 0; i < part.owned; ++i)
     for (int m = 0; m < n; ++m)
       for (int k = 0; k < 3; ++k) v[i].c[k] -= rate[m] * motion[m][i].c[k];

@@ -99,6 +99,7 @@ void MeshPart::find_halo(DistributedMesh &mesh, int rings)
     partners.push_back(std::move(partner));
   }
   requests.resize(2 * partners.size());
+  statuses.resize(2 * partners.size());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -113,7 +114,7 @@ void MeshPart::fill_halo(VertexField &field)
     for (size_t i = 0; i < p.send.size(); ++i) p.buffer[i] = field[p.send[i]];
     MPI_Isend(p.buffer.data(), 4 * p.send.size(), MPI_DOUBLE, p.rank, 0, world, &requests[n++]);
   }
-  MPI_Waitall(n, requests.data(), MPI_STATUSES_IGNORE);
+  MPI_Waitall(n, requests.data(), statuses.data());
 }
 
 void MeshPart::sum(double *values, int n)

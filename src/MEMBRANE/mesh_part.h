@@ -52,6 +52,7 @@ class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
   std::vector<int> atoms;
   std::vector<Partner> partners;
   std::vector<MPI_Request> requests;
+  std::vector<MPI_Status> statuses;    // LAMMPS' stand-in for MPI cannot ignore them
 
   void find_halo(class DistributedMesh &, int rings);
 };

@@ -192,8 +192,7 @@ StiffnessProbe::Eigenvalue StiffnessProbe::largest(int most_steps, double tolera
     const double alpha = dot(v, stiff), before = beside.empty() ? 0.0 : beside.back();
     diagonal.push_back(alpha);
     for (size_t i = 0; i < size; ++i)
-      for (int k = 0; k < 3; ++k)
-        stiff[i].c[k] -= alpha * p[i].c[k] + before * p_last[i].c[k];
+      for (int k = 0; k < 3; ++k) stiff[i].c[k] -= alpha * p[i].c[k] + before * p_last[i].c[k];
     mass.matrix().solve(stiff, u);
     beta = std::sqrt(std::max(0.0, dot(u, stiff)));
 

@@ -196,7 +196,7 @@ CASES = [
     (create("1 sphere 1 1.0") + "set group all x 0.0 y 0.0 z 0.0\n" + PAIR, "is not a finite number: control points"),
     (create("1 sphere 1 1.0") + "variable nan atom exp(1000)*0\nset atom 7 y v_nan\n" + PAIR,
      "Control point 7 has a coordinate that is not a finite number"),
-    (create("1 sphere 1 1.0") + "set type 1 mass 0.0\n" + PAIR, "Invalid mass in set command"),
+    (create("1 sphere 1 1.0") + "set type 1 mass 0.0\n" + PAIR, "Invalid mass"),
     (create("1 sphere 1 1.0") + PAIR + "fix 1 all nve\nvelocity all create 1.0 4711\ntimestep 10\nrun 50\n", "Lost atoms"),
     (create("1 sphere 2 1.0", OPEN_BOX) + PAIR + "velocity all set 10 0 0\nfix 1 all nve\nthermo 10\ntimestep 0.001\n"
      "run 500\n", "unless it left the box, which is not periodic"),
