@@ -196,7 +196,8 @@ for mass in MASSES:
     still = max(abs(row[f"c_m[{row_of(*wave)}][5]"]) for row in rows) / h[0]
     claim(f"mass {mass}: a standing wave stays where it is", still < 1e-9, f"{still:.1e}")
 
-# === A sphere: all harmonics of l = 2..5 at once, on the relaxed mesh
+# === A sphere: all harmonics of l = 2..5 at once, on a relaxed mesh. Theory is for one mass per area:
+# the points' masses are in proportion to the area around them.
 
 
 def read_data(path):
@@ -212,6 +213,18 @@ def read_data(path):
             elif words and section == "Angles":
                 faces.append(tuple(int(word) - 1 for word in words[2:5]))
     return [points[i] for i in sorted(points)], faces
+
+
+def areas(points, faces):
+    """A third of the faces around each point."""
+    total = [0.0] * len(points)
+    for face in faces:
+        a, b, c = (points[v] for v in face)
+        u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+        n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        for corner in face:
+            total[corner] += math.hypot(*n) / 6
+    return total
 
 
 def harmonics(point, lmax):
@@ -274,7 +287,7 @@ def oscillate(level, c0, modulus, step, steps, tolerance):
     area, volume = 4 * math.pi, 4 * math.pi / 3
     terms = f"area {modulus} {area!r} volume {modulus} {volume!r}"
     run(vesicle(f"sphere {level} 1.0 interpolate yes", c0, terms) +
-        "min_style membrane\nminimize 0 0 100 2000\nwrite_data relaxed.data nocoeff\n")
+        "min_style membrane\nminimize 0 0 30 2000\nwrite_data relaxed.data nocoeff\n")
     points, faces = read_data("relaxed.data")
     excited = []
     for point in points:
@@ -282,9 +295,13 @@ def oscillate(level, c0, modulus, step, steps, tolerance):
         stretch = 1 + U * sum(table[l, m] * (1 if (l + m) % 3 else -1) for l, m in KEYS)
         excited.append([stretch * c for c in point])
     write_off("excited.off", excited, faces)
-    rho = 1.7    # of the reference area
+    mass = areas(points, faces)
+    with open("mass.txt", "w") as file:
+        file.write(f"{len(points)}\n" + "".join(f"{i} {m!r}\n" for i, m in enumerate(mass, 1)))
     columns = " ".join(f"c_m[{l * l + l + m + 1}][4]" for l, m in KEYS)
-    rows = thermo(run(vesicle(f"file excited.off mass {rho * area / len(points)!r}", c0, terms) + f"""
+    rows = thermo(run(vesicle("file excited.off", c0, terms) + f"""
+variable        mass atomfile mass.txt
+set             group all mass v_mass
 compute         m all hd/modes sphere {LMAX}
 thermo_style    custom step c_s[1] c_m[1] {columns}
 thermo_modify   norm no format float %24.17g
@@ -298,7 +315,7 @@ run             {steps}
     sigma = modulus * (A - area) / area
     s = sigma * R**2 - 2 * c0 * R + 0.5 * (c0 * R) ** 2
     for l in range(2, LMAX + 1):
-        theory = math.sqrt((l - 1) * (l + 2) * (l * (l + 1) + s) / (rho * area / A) / R**4)
+        theory = math.sqrt((l - 1) * (l + 2) * (l * (l + 1) + s) / (sum(mass) / A) / R**4)
         errors = [frequency_of(t, [row[f"c_m[{l * l + l + m + 1}][4]"] for row in rows], theory) / theory - 1
                   for m in range(-l, l + 1)]
         mean = sum((1 + error) ** 2 for error in errors) / len(errors) - 1
