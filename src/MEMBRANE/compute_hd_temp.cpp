@@ -22,7 +22,6 @@
 #include "error.h"
 #include "fix_hd_base.h"
 #include "force.h"
-#include "modify.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -63,10 +62,8 @@ ComputeHDTemp::~ComputeHDTemp()
 void ComputeHDTemp::init()
 {
   if (!settings_given)
-    for (auto &fix : modify->get_fix_list())
-      if (auto *integrator = dynamic_cast<FixHDBase *>(fix))
-        if (integrator->groupbit & groupbit || igroup == 0)
-          mass.settings = integrator->mass_settings();
+    if (auto *integrator = FixHDBase::of_group(lmp, groupbit, "Compute hd/temp"))
+      mass.settings = integrator->mass_settings();
   mass.init(true);
 }
 

@@ -185,10 +185,11 @@ void FixHDBase::report_runaway(tagint id_of_point)
 {
   std::string reason = fmt::format("the timestep {} is too long", update->dt);
   if (limit > 0.0 && update->dt > limit)
-    reason = fmt::format("timestep {} is beyond the stability limit of about {:.3g}", update->dt,
-                         limit);
+    reason =
+        fmt::format("timestep {} is beyond the stability limit of about {:.3g}", update->dt, limit);
   else if (limit > 0.0)
-    reason += fmt::format(", though the stability limit was about {:.3g} when the run began", limit);
+    reason +=
+        fmt::format(", though the stability limit was about {:.3g} when the run began", limit);
   error->one(FLERR,
              "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
              "hd_timestep finds the limit precisely",

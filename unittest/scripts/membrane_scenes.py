@@ -1,11 +1,11 @@
 """Scenes that the script tests share: a box with one or more membranes, of all kinds of mesh.
 
     scene = SCENES["torus"]
-    run(scene.setup(quadrature=3) + "pair_coeff 1*2 1*2 10.0 0.0\\n" + ...)
+    run(scene.setup(quadrature=3) + coefficients("tension") + "run 0\\n" + scene.shake(2) + "\\nrun 0\\n")
 
-setup() ends after pair_style; each scene has its atom types shuffled so that some membranes, or
-parts of one, are of type 1 and others of type 2. Coordinates are displaced at random (a third of
-`noise` first, so that references "init" can be taken in between: see `shake`).
+setup() ends after pair_style; coordinates are displaced at random once. Some membranes, or some points
+of one, are of type 1 and others of type 2. A shake() displaces all again: after a first run it moves
+the shape away from references "init".
 """
 
 import math

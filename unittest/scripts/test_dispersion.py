@@ -283,7 +283,7 @@ thermo_modify   norm no format float %24.17g
 """
 
 
-def oscillate(level, c0, modulus, step, steps, tolerance):
+def oscillate(c0, modulus, level=4, step=5e-4, steps=2000, tolerance=0.01):
     area, volume = 4 * math.pi, 4 * math.pi / 3
     terms = f"area {modulus} {area!r} volume {modulus} {volume!r}"
     run(vesicle(f"sphere {level} 1.0 interpolate yes", c0, terms) +
@@ -324,7 +324,7 @@ run             {steps}
               f"mean {mean:.1e}, worst {max(map(abs, errors)) * 2:.1e}")
 
 
-oscillate(4, 0.0, 10.0, 5e-4, 2000, 0.01)
-oscillate(3, 1.0, 100.0, 2e-3, 500, 0.02)
+oscillate(0.0, 10.0)
+oscillate(1.0, 100.0)
 
 finish()
