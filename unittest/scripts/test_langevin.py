@@ -137,7 +137,7 @@ for fix, said in (("hd/langevin 1 1 0 4711", "damping time 0 must be positive"),
     error = error_of(VESICLE.format(fix=f"fix 1 all {fix}") + "run 0\n")
     claim(f"fix {fix}", said in error, error)
 two = "fix 0 all {}\nfix 1 all hd/nve"
-error = error_of(VESICLE.format(fix=two.format("hd/brownian 1 1 gamma_t 1")) + "run 0\n")
+error = error_of(VESICLE.format(fix=two.format("hd/langevin 1 1 1 1")) + "run 0\n")
 claim("two integrators", "are also moved by fix" in error, error)
 error = error_of(VESICLE.format(fix="group half id <= 40\nfix 1 half hd/nve") + "run 0\n")
 claim("a group that cuts a membrane", "group half has 40 of the 96 control points" in error, error)
