@@ -126,7 +126,9 @@ void HDMass::refresh()
 {
   surface->refresh();
   if (epoch == surface->epoch()) return;
+  const bool first = epoch < 0;
   epoch = surface->epoch();
+  if (!first && vertices->follow(*surface)) return;
 
   static constexpr int RINGS[] = {1, 3, 0};    // vertex, consistent, lumped
   vertices = std::make_unique<MeshPart>(lmp, *surface, groupbit, RINGS[(int) settings.kind]);
