@@ -433,11 +433,11 @@ void MassOperator::multiply(const VertexField &v, VertexField &p)
 
   // L^T D L v, with L^T x = (1/e) L (e x)
 
-  VertexField momentum(part_.size());
-  apply_mask(work_, momentum);
+  scratch_.resize(part_.size());
+  apply_mask(work_, scratch_);
   for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 4; ++k) momentum[i].c[k] *= mass_[i] * spoke_[i];
-  apply_mask(momentum, p);
+    for (int k = 0; k < 4; ++k) scratch_[i].c[k] *= mass_[i] * spoke_[i];
+  apply_mask(scratch_, p);
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 4; ++k) p[i].c[k] /= spoke_[i];
 }
@@ -475,9 +475,9 @@ void MassOperator::sample(double kT, uint64_t seed, uint64_t step, VertexField &
   const CounterRandom random(seed, step);
   const int n = part_.owned;
   const double root = std::sqrt(kT);
-  VertexField z(part_.size(), Vector4{});
 
   if (settings_.kind == MassKind::CONSISTENT) {
+    scratch_.assign(part_.size(), Vector4{});
     std::vector<std::array<double, 4>> normal;
     for (const FaceNoise &face : noise_) {
       const int columns = static_cast<int>(face.root->cols());
@@ -486,52 +486,54 @@ void MassOperator::sample(double kT, uint64_t seed, uint64_t step, VertexField &
       for (auto [i, row] : face.owned)
         for (int j = 0; j < columns; ++j)
           for (int k = 0; k < 3; ++k)
-            z[i].c[k] += root * face.amplitude * (*face.root)(row, j) * normal[j][k];
+            scratch_[i].c[k] += root * face.amplitude * (*face.root)(row, j) * normal[j][k];
     }
-    solve(z, v);
+    solve(scratch_, v);
     return;
   }
 
+  VertexField &w = settings_.kind == MassKind::VERTEX ? scratch_ : v;
+  w.resize(part_.size());
   for (int i = 0; i < n; ++i) {
     const auto normal = random.normals(label_[i]);
-    for (int k = 0; k < 3; ++k) z[i].c[k] = root / std::sqrt(mass_[i]) * normal[k];
+    const double spread = root / std::sqrt(mass_[i]);
+    for (int k = 0; k < 3; ++k) w[i].c[k] = spread * normal[k];
+    w[i].c[3] = 0.0;
   }
-  if (settings_.kind == MassKind::VERTEX) {
-    solve_mask(z, v);
-    return;
-  }
-  std::copy_n(z.begin(), n, v.begin());
+  if (settings_.kind == MassKind::VERTEX) solve_mask(scratch_, v);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void MassOperator::relax(double keep, double kT, uint64_t seed, uint64_t step, VertexField &v)
 {
-  VertexField noise(part_.size());
-  sample((1.0 - keep * keep) * kT, seed, step, noise);
+  kick_.resize(part_.size());
+  sample((1.0 - keep * keep) * kT, seed, step, kick_);
   for (int i = 0; i < part_.owned; ++i)
-    for (int k = 0; k < 3; ++k) v[i].c[k] = keep * v[i].c[k] + noise[i].c[k];
+    for (int k = 0; k < 3; ++k) v[i].c[k] = keep * v[i].c[k] + kick_[i].c[k];
 }
 
 void MassOperator::relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
                          VertexField &v)
 {
   const CounterRandom random(seed, step);
-  VertexField w(v);
-  w.resize(part_.size());
+  scratch_.resize(part_.size());
   if (settings_.kind == MassKind::VERTEX) {
-    work_ = w;
-    apply_mask(work_, w);
-  }
+    work_ = v;
+    work_.resize(part_.size());
+    apply_mask(work_, scratch_);
+  } else
+    std::copy_n(v.begin(), part_.owned, scratch_.begin());
   for (int i = 0; i < part_.owned; ++i) {
     const auto normal = random.normals(label_[i]);
     const double spread = std::sqrt((1.0 - keep[i] * keep[i]) * kT / mass_[i]);
-    for (int k = 0; k < 3; ++k) w[i].c[k] = keep[i] * w[i].c[k] + spread * normal[k];
+    for (int k = 0; k < 3; ++k)
+      scratch_[i].c[k] = keep[i] * scratch_[i].c[k] + spread * normal[k];
   }
   if (settings_.kind == MassKind::VERTEX)
-    solve_mask(w, v);
+    solve_mask(scratch_, v);
   else
-    std::copy_n(w.begin(), part_.owned, v.begin());
+    std::copy_n(scratch_.begin(), part_.owned, v.begin());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -553,7 +555,8 @@ double MassOperator::residual(const VertexField &p, const VertexField &v)
 
 double MassOperator::memory_usage() const
 {
-  return sizeof(Vector4) * (previous_.capacity() + work_.capacity()) +
+  return sizeof(Vector4) * (previous_.capacity() + work_.capacity() + scratch_.capacity() +
+                            kick_.capacity()) +
       sizeof(int) * (ring_.capacity() + ring_start_.capacity()) +
       12.0 * rows_.nonZeros();
 }

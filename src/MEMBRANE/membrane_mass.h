@@ -142,13 +142,14 @@ class MassOperator {
   std::vector<double> mass_;    // of owned vertices
   std::vector<uint64_t> label_;
   int iterations_ = 0;
+  VertexField work_, scratch_, kick_;
 
   // VERTEX: rings of owned vertices in local numbers; c and e of owned vertices
   std::vector<int> ring_start_, ring_;
   std::vector<double> centre_, spoke_;
   double lowest_ = 1.0;
   int passes_ = 0;
-  VertexField previous_, work_;
+  VertexField previous_;
 
   // CONSISTENT: rows of owned vertices, columns in local numbers
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
