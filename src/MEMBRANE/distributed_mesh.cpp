@@ -484,12 +484,12 @@ int DistributedMesh::local_neighbor(int i, int neighbor, int face)
 
 /* ---------------------------------------------------------------------- */
 
-std::vector<FaceGroup> DistributedMesh::local_groups(PatchRules &rules)
+std::vector<FaceGroup> DistributedMesh::local_groups(PatchRules &rules,
+                                                     const std::vector<int> &faces)
 {
-  refresh();
   std::vector<FaceGroup> groups;
   try {
-    groups = group_faces(topo, rules, faces_here);
+    groups = group_faces(topo, rules, faces);
   } catch (const MeshError &err) {
     error->one(FLERR, "Membrane mesh: {}", err.what());
   }

@@ -167,14 +167,14 @@ void FixHDBase::drift(double step)
   if (limit_due) find_limit();
 
   MeshPart &part = mass.part();
+  const double fastest = most_drift / step, most = fastest * fastest;
   int runaway = -1;
   for (int i = 0; i < part.owned; ++i) {
     const int j = part.atom_of(i);
     double *x = atom->x[j];
     const double *v = atom->v[j];
     for (int k = 0; k < 3; ++k) x[k] += step * v[k];
-    const double moved = step * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(moved < most_drift)) runaway = j;
+    if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most)) runaway = j;
   }
   if (runaway >= 0) report_runaway(atom->tag[runaway]);
 }

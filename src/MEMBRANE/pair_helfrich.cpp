@@ -22,9 +22,11 @@
 #include "distributed_mesh.h"
 #include "error.h"
 #include "force.h"
+#include "group.h"
 #include "membrane_regularization.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
@@ -37,7 +39,7 @@ using Membrane_NS::FaceGroup;
 using Membrane_NS::PatchRules;
 using Membrane_NS::Quadrature;
 
-enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, REGULARIZATION, NEXTRA };
+enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, REGULARIZATION, POINTS, NEXTRA };
 
 // a face whose D/A is beyond this is about to turn over
 static constexpr double WORST_FACE = 50.0;
@@ -46,8 +48,8 @@ static constexpr double WORST_FACE = 50.0;
 
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
     Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
-    volumes(false), area_local(false), gauss(false), regularized(false), report(false), restored(false),
-    epoch(-1), totals(lmp)
+    volumes(false), area_local(false), gauss(false), regularized(false), report(false),
+    points_evaluated(0.0), restored(false), epoch(-1), totals(lmp)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -246,12 +248,23 @@ void PairHelfrich::choose_terms()
   }
   MPI_Allreduce(mine.data(), types.data(), mine.size(), MPI_INT, MPI_MAX, world);
 
+  std::vector<char> whole_terms(nmembranes, 0);
+  for (int m = 0; m < nmembranes; ++m)
+    for (int t = 1; t <= atom->ntypes; ++t)
+      if (types[m * (atom->ntypes + 1) + t] && coefficients[t].uses_totals()) whole_terms[m] = 1;
+  const std::vector<char> excluded = find_excluded(whole_terms);
+
+  static const Coefficients NOTHING;
   membrane_terms.assign(nmembranes, nullptr);
   membrane_volume.assign(nmembranes, 0);
   first_pass = volumes = area_local = gauss = regularized = false;
   for (int m = 0; m < nmembranes; ++m)
     for (int t = 1; t <= atom->ntypes; ++t) {
       if (!types[m * (atom->ntypes + 1) + t]) continue;
+      if (excluded[m]) {
+        membrane_terms[m] = &NOTHING;
+        continue;
+      }
       const Coefficients &c = coefficients[t];
       const tagint molecule = mesh->molecules()[m];
       if (!membrane_terms[m]) membrane_terms[m] = &c;
@@ -268,8 +281,7 @@ void PairHelfrich::choose_terms()
                    "volume and pressure from pair_coeff {} {}",
                    molecule, t, t);
       if (c.uses_volume()) membrane_volume[m] = 1;
-      if (c.area_modulus != 0.0 || c.uses_volume() || c.local_area_modulus != 0.0)
-        first_pass = true;
+      if (c.uses_totals()) first_pass = true;
       volumes = volumes || c.uses_volume();
       area_local = area_local || c.local_area_modulus != 0.0;
       gauss = gauss || c.kg != 0.0;
@@ -281,9 +293,11 @@ void PairHelfrich::choose_terms()
   for (auto &c : coefficients) c.fresh = false;
   restored = false;
 
-  // total volumes cost a pass: only if somebody can read them
+  // total volumes cost a pass: only if there are any and somebody can read them
 
-  report = !modify->get_compute_by_style("^pair$").empty();
+  report = false;
+  if (!modify->get_compute_by_style("^pair$").empty())
+    for (int m = 0; m < nmembranes; ++m) report = report || mesh->is_closed_membrane(m);
   generation = mesh->generation();
 
   membrane_faces.clear();
@@ -293,6 +307,59 @@ void PairHelfrich::choose_terms()
     for (int f = 0; f < topology.num_faces(); ++f)
       membrane_faces[mesh->membrane(topology.component(topology.face(f)[0]))].push_back(f);
   }
+}
+
+/* ----------------------------------------------------------------------
+   neigh_modify exclude group A A says that what is within A does not matter, as for a frozen part:
+   faces that depend on points of A only are left out. A membrane with terms of its total area or
+   volume is left out as a whole or not at all. By membrane, whether it is left out; all ranks agree.
+------------------------------------------------------------------------- */
+
+bool PairHelfrich::in_exclusion(int mask, int e) const
+{
+  return mask & group->bitmask[neighbor->ex1_group[e]] &&
+      mask & group->bitmask[neighbor->ex2_group[e]];
+}
+
+std::vector<char> PairHelfrich::find_excluded(const std::vector<char> &whole_terms) const
+{
+  const int nmembranes = static_cast<int>(whole_terms.size());
+  std::vector<char> excluded(nmembranes, 0);
+  std::vector<bigint> size(nmembranes, 0), mine(nmembranes), inside(nmembranes);
+  for (int c = 0; c < mesh->topology().num_components(); ++c)
+    size[mesh->membrane(c)] += mesh->topology().num_vertices(c);
+  for (int e = 0; e < neighbor->nex_group; ++e) {
+    std::fill(mine.begin(), mine.end(), 0);
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const int v = mesh->vertex(atom->tag[i]);
+      if (v >= 0 && in_exclusion(atom->mask[i], e))
+        ++mine[mesh->membrane(mesh->topology().component(v))];
+    }
+    MPI_Allreduce(mine.data(), inside.data(), nmembranes, MPI_LMP_BIGINT, MPI_SUM, world);
+    for (int m = 0; m < nmembranes; ++m) {
+      if (inside[m] == size[m]) excluded[m] = 1;
+      if (inside[m] && inside[m] < size[m] && whole_terms[m])
+        error->all(FLERR,
+                   "neigh_modify exclude group has {} of the {} control points of membrane {}, whose "
+                   "area or volume terms need all of it: exclude the whole membrane or nothing",
+                   inside[m], size[m], mesh->molecules()[m]);
+    }
+  }
+  return excluded;
+}
+
+bool PairHelfrich::is_excluded(int face, std::vector<int> &stencil) const
+{
+  mesh->topology().stencil(face, stencil);
+  int common = ~0;
+  for (int v : stencil) {
+    const int i = atom->map(mesh->tag(v));
+    if (i < 0) return false;    // local_groups() reports it
+    common &= atom->mask[i];
+  }
+  for (int e = 0; e < neighbor->nex_group; ++e)
+    if (in_exclusion(common, e)) return true;
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -311,7 +378,12 @@ double PairHelfrich::init_one(int i, int j)
 
 void PairHelfrich::localize()
 {
-  groups = mesh->local_groups(*rules);
+  std::vector<int> faces(mesh->owned_faces()), stencil;
+  if (neighbor->nex_group)
+    faces.erase(std::remove_if(faces.begin(), faces.end(),
+                               [&](int f) { return is_excluded(f, stencil); }),
+                faces.end());
+  groups = mesh->local_groups(*rules, faces);
   epoch = mesh->epoch();
   const int nslots = count_slots(groups);
   model.resize(nslots);
@@ -456,6 +528,9 @@ void PairHelfrich::compute(int eflag, int vflag)
     totals.measure(groups, model, integrals, wants_volume);
     take_references();
   }
+  double points = 0.0;
+  for (const FaceGroup &group : groups) points += 1.0 * group.nfaces * group.rule->npoints;
+  points_evaluated = first_pass || wants_volume ? 2.0 * points : points;
   if (first_pass) apply_global_terms();
   if (volumes) totals.place_origins(groups, model);
 
@@ -528,6 +603,7 @@ void PairHelfrich::regularize()
 void PairHelfrich::tally()
 {
   std::fill_n(pvector, NEXTRA, 0.0);
+  pvector[POINTS] = points_evaluated;
 
   // energy of each membrane's area and volume, per area
 

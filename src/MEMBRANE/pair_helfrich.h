@@ -69,6 +69,10 @@ class PairHelfrich : public Pair {
 
     bool same_global_terms(const Coefficients &) const;
     bool uses_volume() const { return volume_modulus != 0.0 || pressure != 0.0; }
+    bool uses_totals() const
+    {
+      return area_modulus != 0.0 || local_area_modulus != 0.0 || uses_volume();
+    }
   };
 
   // areas and volume a membrane is compared with, taken at the first step for "init"
@@ -91,6 +95,7 @@ class PairHelfrich : public Pair {
   std::vector<std::vector<int>> membrane_faces;        // for area/local only
   std::vector<double> reference_area;                  // by face, for area/local only
   bool first_pass, volumes, area_local, gauss, regularized, report;
+  double points_evaluated;    // of quadrature, in this step on this rank
   bool restored;    // references come from a restart file and outlive the next pair_coeff
 
   bigint epoch;    // reneighbouring that what follows is for
@@ -104,6 +109,9 @@ class PairHelfrich : public Pair {
 
   void allocate();
   void choose_terms();
+  bool in_exclusion(int mask, int e) const;
+  std::vector<char> find_excluded(const std::vector<char> &whole_terms) const;
+  bool is_excluded(int face, std::vector<int> &stencil) const;
   void localize();
   void take_references();
   void apply_global_terms();
