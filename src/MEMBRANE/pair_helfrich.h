@@ -26,6 +26,7 @@ PairStyle(helfrich,PairHelfrich);
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -93,6 +94,8 @@ class PairHelfrich : public Pair {
   bool first_pass, volumes, area_local, gauss, regularized, report;
   bool restored;    // references come from a restart file and outlive the next pair_coeff
 
+  std::vector<std::string> warned;    // of these fixes
+
   bigint epoch;    // reneighbouring that what follows is for
   std::vector<Membrane_NS::FaceGroup> groups;
   Membrane_NS::FaceModel model;
@@ -103,6 +106,7 @@ class PairHelfrich : public Pair {
   MeshTotals totals;
 
   void allocate();
+  void check_integrators();
   void choose_terms();
   void localize();
   void take_references();
