@@ -94,6 +94,8 @@ class DistributedMesh : protected Pointers {
   }
   /// The local index of the image of `neighbor` that is nearest to local atom i; for edges.
   int local_neighbor(int i, int neighbor, int face);
+  /// The same, or -1 if it is beyond the communication cutoff.
+  int find_neighbor(int i, int neighbor);
 
   double memory_usage() const;
 

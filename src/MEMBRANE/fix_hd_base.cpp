@@ -21,9 +21,11 @@
 #include "comm.h"
 #include "distributed_mesh.h"
 #include "error.h"
+#include "face_watch.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "stiffness_probe.h"
 #include "update.h"
 
@@ -41,19 +43,32 @@ static constexpr double MOST_DRIFT = 0.25;
 static constexpr int LANCZOS_STEPS = 6;
 static constexpr int WORTH_CHECKING = 250;
 
+// steps between looks at the faces, so that these cost next to nothing; in between they move little
+static constexpr int FACES_EVERY = 10;
+
 /* ---------------------------------------------------------------------- */
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
-    check(true), limit_due(false), limit(0.0)
+    check(true), limit_due(false), limit(0.0), watching(false),
+    faces(std::make_unique<FaceWatch>(lmp, mass.mesh(), groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
 }
 
+FixHDBase::~FixHDBase() = default;
+
 int FixHDBase::modify_param(int narg, char **arg)
 {
-  if (strcmp(arg[0], "check") != 0) return 0;
-  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify check", error);
+  const std::string key = arg[0];
+  if (key != "check" && key != "faces") return 0;
+  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify " + key, error);
+  if (key == "faces") {
+    faces->patience = utils::bnumeric(FLERR, arg[1], false, lmp);
+    if (faces->patience < 0)
+      error->all(FLERR, "Fix {} faces {}: the number of steps must not be negative", style, arg[1]);
+    return 2;
+  }
   check = utils::logical(FLERR, arg[1], false, lmp);
   if (!check) limit = 0.0;
   return 2;
@@ -118,6 +133,17 @@ void FixHDBase::setup(int)
   const bool respa = utils::strmatch(update->integrate_style, "^respa");
   if (respa) limit = 0.0;
   limit_due = check && !respa && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
+  watching = check && !respa && update->whichflag == 1 && update->nsteps > 0;
+  if (watching) faces->begin();
+}
+
+/* ----------------------------------------------------------------------
+   also after reneighbouring, when stencils that have grown too large stop the run with another message
+------------------------------------------------------------------------- */
+
+void FixHDBase::pre_force(int)
+{
+  if (watching) faces->check(update->ntimestep % FACES_EVERY == 0 || neighbor->ago == 0);
 }
 
 /* ----------------------------------------------------------------------
@@ -198,6 +224,6 @@ void FixHDBase::report_runaway(tagint id_of_point)
 
 double FixHDBase::memory_usage()
 {
-  return mass.memory_usage() +
+  return mass.memory_usage() + faces->memory_usage() +
       sizeof(Membrane_NS::Vector4) * (force_field.capacity() + acceleration.capacity());
 }

@@ -17,15 +17,19 @@
 #include "fix.h"
 #include "hd_mass.h"
 
+#include <memory>
+
 namespace LAMMPS_NS {
 
 /// What all integrators of control points share: the mass matrix, the checks, and M^-1 f.
 class FixHDBase : public Fix {
  public:
   FixHDBase(class LAMMPS *, int, char **);
+  ~FixHDBase() override;
 
   void init() override;
   void setup(int) override;
+  void pre_force(int) override;
   int modify_param(int, char **) override;
   double memory_usage() override;
 
@@ -50,6 +54,8 @@ class FixHDBase : public Fix {
   double most_drift;
   bool check, limit_due;
   double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
+  bool watching;
+  std::unique_ptr<class FaceWatch> faces;
 
   void check_other_integrators();
   void find_limit();

@@ -62,7 +62,7 @@ FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
 
 int FixHDBrownian::setmask()
 {
-  return INITIAL_INTEGRATE;
+  return INITIAL_INTEGRATE | PRE_FORCE;
 }
 
 void FixHDBrownian::init()

@@ -21,6 +21,7 @@
 #include "comm.h"
 #include "distributed_mesh.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "group.h"
 #include "membrane_regularization.h"
@@ -226,6 +227,37 @@ void PairHelfrich::init_style()
     error->warning(FLERR, "Pair style helfrich finds no membrane: use create_membrane or read_data");
 
   choose_terms();
+  if (update->whichflag == 1) check_integrators();
+}
+
+/* ----------------------------------------------------------------------
+   integrators for plain atoms do move control points, as particles of their own. Rigid and prescribed
+   motion is the same with any mass matrix
+------------------------------------------------------------------------- */
+
+void PairHelfrich::check_integrators()
+{
+  static constexpr const char *FITTING[] = {"^hd/", "^move", "^rigid", "^nve/noforce"};
+  for (auto &fix : modify->get_fix_list()) {
+    if (!fix->time_integrate) continue;
+    const bool fits = std::any_of(std::begin(FITTING), std::end(FITTING), [&](const char *pattern) {
+      return utils::strmatch(fix->style, pattern);
+    });
+    if (fits) continue;
+    if (std::find(warned.begin(), warned.end(), fix->id) != warned.end()) continue;
+    bigint mine = 0, all;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & fix->groupbit && mesh->vertex(atom->tag[i]) >= 0) ++mine;
+    MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (all == 0) continue;
+    warned.emplace_back(fix->id);
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix {} ({}) moves {} control points as independent particles: it ignores the "
+                     "mass matrix of the surface, and waves are too slow; use fix hd/nve, "
+                     "hd/langevin or hd/brownian",
+                     fix->id, fix->style, all);
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -26,6 +26,7 @@ PairStyle(helfrich,PairHelfrich);
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -98,6 +99,8 @@ class PairHelfrich : public Pair {
   double points_evaluated;    // of quadrature, in this step on this rank
   bool restored;    // references come from a restart file and outlive the next pair_coeff
 
+  std::vector<std::string> warned;    // of these fixes
+
   bigint epoch;    // reneighbouring that what follows is for
   std::vector<Membrane_NS::FaceGroup> groups;
   Membrane_NS::FaceModel model;
@@ -108,6 +111,7 @@ class PairHelfrich : public Pair {
   MeshTotals totals;
 
   void allocate();
+  void check_integrators();
   void choose_terms();
   bool in_exclusion(int mask, int e) const;
   std::vector<char> find_excluded(const std::vector<char> &whole_terms) const;

@@ -133,7 +133,8 @@ write_off("valence3.off", *TETRAHEDRON)
 write_off("valence12.off", *bipyramid(12))
 HARD = [("valence 3", "create_membrane 1 file valence3.off refine 2", 2e-4),
         ("valence 12", "create_membrane 1 file valence12.off refine 2", 1e-5),
-        ("edge ratio 10", "create_membrane 1 torus 8 16 1.5 0.3", 1e-4),
+        ("edge ratio 10", "create_membrane 1 sphere 2 1.0 scale 4 1 0.4", 1e-4),
+        ("faces of 2 degrees", "create_membrane 1 torus 8 16 1.5 0.3", 1e-4),
         ("a sharp prolate", "create_membrane 1 sphere 2 1.0 scale 0.4 0.4 2.0", 1e-5)]
 for name, create, dt in HARD:
     scene = dict(create=create, mass=0.08, T=1e-3, prepare="")
