@@ -434,27 +434,27 @@ void FixSRDMesh::kick()
   }
 }
 
-/* ----------------------------------------------------------------------
-   solvent that has strayed too far goes to its new owner in this step
-------------------------------------------------------------------------- */
-
 void FixSRDMesh::post_integrate()
 {
   streaming.stream(solvent, update->dt);
   sampled = -1;
   const bool due = is_due();
-  if ((due && domain->deform_vremap) || ((due || comm->nprocs > 1) && any_strayed()))
+  if (due && aside.active())
+    for (int i = solvent.first(); i < solvent.last(); ++i)
+      if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
+  if ((due && domain->deform_vremap) || (comm->nprocs > 1 && any_strayed()))
     next_reneighbor = update->ntimestep;
 }
+
+/* ----------------------------------------------------------------------
+   solvent that has strayed too far goes to its new owner in this step
+------------------------------------------------------------------------- */
 
 bool FixSRDMesh::any_strayed()
 {
   int mine = 0, any;
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (cells->grid.strayed(atom->x[i]) && solvent.has(i)) {
-      mine = 1;
-      break;
-    }
+  for (int i = solvent.first(); i < solvent.last() && !mine; ++i)
+    mine = cells->grid.strayed(atom->x[i]) && solvent.has(i);
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   return any;
 }

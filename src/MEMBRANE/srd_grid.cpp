@@ -28,7 +28,8 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 SRDGrid::SRDGrid(LAMMPS *lmp, double size) :
-    Pointers(lmp), wanted(size), n{1, 1, 1}, all{1, 1, 1}, periodic{true, true, true},
+    Pointers(lmp),
+    wanted(size), n{1, 1, 1}, all{1, 1, 1}, periodic{true, true, true}, whole{true, true, true},
     edges{size, size, size}, start{0, 0, 0}, length{0, 0, 0}, corner{0.0, 0.0, 0.0}, inverse{},
     cell_vectors{}, shift{0.0, 0.0, 0.0}, stray_lo{}, stray_hi{}
 {
@@ -105,8 +106,9 @@ void SRDGrid::hold(double reach)
       lo = (domain->sublo[k] - domain->boxlo[k]) / domain->prd[k];
       hi = (domain->subhi[k] - domain->boxlo[k]) / domain->prd[k];
     }
-    const double width = hi - lo,
-                 more = width > 0.999 ? 0.5 : std::min(reach * per_length[k], width);
+    const double width = hi - lo;
+    whole[k] = width > 0.999999;
+    const double more = whole[k] ? 0.5 : std::min(reach * per_length[k], width);
     stray_lo[k] = lo - more;
     stray_hi[k] = hi + more;
 
@@ -257,6 +259,27 @@ bool SRDGrid::strayed(const double *x) const
     if (!(s >= stray_lo[k] * n[k] && s <= stray_hi[k] * n[k])) return true;
   }
   return false;
+}
+
+void SRDGrid::wrap(double *x, imageint &image) const
+{
+  double t[3];
+  grid_coordinates(x, t);
+  const double *h = domain->h;
+  const double vectors[3][3] = {{h[0], 0.0, 0.0}, {h[5], h[1], 0.0}, {h[4], h[3], h[2]}};
+  int boxes[3] = {0, 0, 0};
+  for (int k = 0; k < 3; ++k) {
+    const double s = t[k] + shift[k];
+    if (!whole[k] || !periodic[k] || (s >= 0.0 && s < n[k])) continue;
+    boxes[k] = static_cast<int>(std::floor(s / n[k]));
+    for (int j = 0; j < 3; ++j) x[j] -= boxes[k] * vectors[k][j];
+  }
+  if (!(boxes[0] || boxes[1] || boxes[2])) return;
+  const int ix = static_cast<int>(image & IMGMASK) + boxes[0],
+            iy = static_cast<int>(image >> IMGBITS & IMGMASK) + boxes[1],
+            iz = static_cast<int>(image >> IMG2BITS) + boxes[2];
+  image = (static_cast<imageint>(ix) & IMGMASK) | (static_cast<imageint>(iy) & IMGMASK) << IMGBITS |
+      (static_cast<imageint>(iz) & IMGMASK) << IMG2BITS;
 }
 
 /* ---------------------------------------------------------------------- */

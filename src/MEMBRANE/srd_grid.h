@@ -73,6 +73,8 @@ class SRDGrid : protected Pointers {
   int cell(const double *x, double *offset) const;
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
+  /// Back into the box in periodic directions in which this rank has all of it.
+  void wrap(double *x, imageint &image) const;
   /// Walls: the position at fractions f in [0, 1) of a cell, which may be outside of the box.
   void position_in_cell(int cell, const double *f, double *x) const;
   /// Whether a cell is partly outside of the box.
@@ -83,7 +85,7 @@ class SRDGrid : protected Pointers {
  private:
   double wanted;
   int n[3], all[3];             // divisions of the box; cells
-  bool periodic[3];
+  bool periodic[3], whole[3];    // whole: this rank's sub-domain spans the box
   double edges[3];
   int start[3], length[3];      // of this rank's cells
   double corner[3], inverse[6], cell_vectors[6], shift[3];
