@@ -26,12 +26,14 @@ using Eigen::Vector3d;
 
 void CollisionEvents::begin(const std::vector<SurfaceVertex> &vertices,
                             const std::vector<SurfaceTriangle> &triangles, double duration,
-                            double vertex_slack)
+                            double vertex_slack, const BoxWalls &walls)
 {
   vertices_ = &vertices;
   triangles_ = &triangles;
   duration_ = duration;
   slack_ = vertex_slack;
+  walls_ = walls;
+  have_walls_ = walls.any();
   points_.clear();
   pairs_.clear();
   touched_.clear();
@@ -83,6 +85,7 @@ void CollisionEvents::reset()
   impulses_.clear();
   normal_impulse_ = {0.0, 0.0};
   abandoned_ = 0;
+  std::fill_n(walls_.impulse, 3, 0.0);
   queue_ = {};
   for (Point &point : points_) {
     point.now = point.start;
@@ -98,10 +101,10 @@ CollisionEvents::Outcome CollisionEvents::run(const std::vector<VertexImpulse> &
   if (!indexed_) index_pairs();
   reset();
   for (size_t i = 0; i < from_outside.size(); ++i)
-    queue_.push({from_outside[i].time, from_outside[i].tag, -1, static_cast<int>(i)});
+    queue_.push({from_outside[i].time, from_outside[i].tag, -1, static_cast<int>(i), 0});
   for (int i = 0; i < num_points(); ++i) {
     for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p) foresee(p, 0.0);
-    schedule(i);
+    schedule(i, 0.0);
   }
 
   Outcome outcome = Outcome::DONE;
@@ -112,8 +115,12 @@ CollisionEvents::Outcome CollisionEvents::run(const std::vector<VertexImpulse> &
       const VertexImpulse &impulse = from_outside[event.version];
       if (!turn_vertices(impulse)) outcome = Outcome::VERTEX_STRAYED;
       foresee_around(impulse.vertex, event.time);
-    } else if (event.version == points_[event.point].version)
-      collide(event.point, event.time, outcome);
+    } else if (event.version == points_[event.point].version) {
+      if (event.pair < 0)
+        hit_wall(event, outcome);
+      else
+        collide(event, outcome);
+    }
   }
   return outcome;
 }
@@ -132,26 +139,57 @@ void CollisionEvents::foresee(int p, double now)
                               pair.hit);
 }
 
-// the first of the collisions foreseen for a point counts
+// the first of what is foreseen for a point counts
 
-void CollisionEvents::schedule(int i)
+void CollisionEvents::schedule(int i, double now)
 {
   Point &point = points_[i];
   ++point.version;
-  const Pair *first = nullptr;
+  Event first = {duration_, point.tag, i, point.version, 0};
+  bool any = false;
   for (int p = point.first_pair; p < point.last_pair; ++p)
-    if (pairs_[p].hits && (!first || pairs_[p].hit.time < first->hit.time)) first = &pairs_[p];
-  if (first) queue_.push({first->hit.time, point.tag, i, point.version});
+    if (pairs_[p].hits && (!any || pairs_[p].hit.time < first.time)) {
+      first.time = pairs_[p].hit.time;
+      first.pair = p;
+      any = true;
+    }
+  if (have_walls_) {
+    int face;
+    const Vector3d x = point.now.at(now);
+    const double wait =
+        walls_.first_hit(x.data(), point.now.velocity.data(), first.time - now, face);
+    if (face >= 0) {
+      first.time = now + wait;
+      first.pair = -1 - face;
+      any = true;
+    }
+  }
+  if (any) queue_.push(first);
+}
+
+bool CollisionEvents::in_reach(const Point &point) const
+{
+  return (point.now.at(duration_) - point.start.origin).norm() <= point.reach;
+}
+
+void CollisionEvents::hit_wall(const Event &event, Outcome &outcome)
+{
+  Point &point = points_[event.point];
+  Vector3d v = point.now.velocity;
+  walls_.bounce(v.data(), 1.0 / point.inverse_mass, -1 - event.pair);
+  point.now.turn(event.time, v - point.now.velocity);
+  if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
+  for (int p = point.first_pair; p < point.last_pair; ++p) foresee(p, event.time);
+  schedule(event.point, event.time);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void CollisionEvents::collide(int i, double now, Outcome &outcome)
+void CollisionEvents::collide(const Event &event, Outcome &outcome)
 {
+  const int i = event.point, first = event.pair;
+  const double now = event.time;
   Point &point = points_[i];
-  int first = -1;
-  for (int p = point.first_pair; p < point.last_pair; ++p)
-    if (pairs_[p].hits && (first < 0 || pairs_[p].hit.time < pairs_[first].hit.time)) first = p;
   const Pair &pair = pairs_[first];
   const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
   const auto &b = pair.hit.weight;
@@ -177,8 +215,7 @@ void CollisionEvents::collide(int i, double now, Outcome &outcome)
         collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
                           inverse_masses, settings_.no_slip || point.bounces > MOST_BOUNCES);
     point.now.turn(now, impulse * point.inverse_mass);
-    if (!((point.now.at(duration_) - point.start.origin).norm() <= point.reach))
-      outcome = Outcome::POINT_STRAYED;
+    if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
     normal_impulse_[pair.side > 0 ? 0 : 1] += pair.side * impulse.dot(pair.hit.normal);
 
     VertexImpulse done = {now, point.tag, triangle.vertex, {}};
@@ -194,7 +231,7 @@ void CollisionEvents::collide(int i, double now, Outcome &outcome)
       pairs_[p].hits = false;
     else
       foresee(p, now);
-  schedule(i);
+  schedule(i, now);
 }
 
 // returns whether vertices stay where points were looked for
@@ -233,5 +270,5 @@ void CollisionEvents::foresee_around(const std::array<int, 3> &vertices, double 
       seen_[num_pairs + point] = clock_;
       dirty_.push_back(point);
     }
-  for (int point : dirty_) schedule(point);
+  for (int point : dirty_) schedule(point, now);
 }

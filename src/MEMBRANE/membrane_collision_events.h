@@ -14,6 +14,7 @@
 #ifndef LMP_MEMBRANE_COLLISION_EVENTS_H
 #define LMP_MEMBRANE_COLLISION_EVENTS_H
 
+#include "membrane_box_walls.h"
 #include "membrane_collision.h"
 
 #include <cstdint>
@@ -71,8 +72,10 @@ class CollisionEvents {
   // === Input. Vertices and triangles must outlive the runs.
 
   /// vertex_slack: how much further than foreseen at the start a vertex may be found in the step.
+  /// Points meet these walls, too.
   void begin(const std::vector<SurfaceVertex> &vertices,
-             const std::vector<SurfaceTriangle> &triangles, double duration, double vertex_slack);
+             const std::vector<SurfaceTriangle> &triangles, double duration, double vertex_slack,
+             const BoxWalls &walls = {});
   /// A point and how far from its start it may be found; returns its index.
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
   /// A triangle that the last point may meet, and the side it is on.
@@ -107,6 +110,8 @@ class CollisionEvents {
   const std::vector<int> &touched() const { return touched_; }
   /// Sum over collisions of the impulse normal to the surface, of points on side +1 and -1.
   const std::array<double, 2> &normal_impulse() const { return normal_impulse_; }
+  /// Momentum that the walls took.
+  Eigen::Vector3d wall_impulse() const { return Eigen::Vector3d::Map(walls_.impulse); }
 
  private:
   struct Point {
@@ -125,6 +130,7 @@ class CollisionEvents {
     double time;
     int64_t tag;
     int point, version;    // point -1: impulse number `version` from outside
+    int pair;              // -1 - f: wall f
     bool operator<(const Event &b) const
     {
       return time > b.time || (time == b.time && tag > b.tag);
@@ -148,6 +154,8 @@ class CollisionEvents {
   std::vector<int> seen_, dirty_;
   int clock_ = 0;
   std::priority_queue<Event> queue_;
+  BoxWalls walls_;
+  bool have_walls_ = false;
   std::vector<VertexImpulse> impulses_;
   std::array<double, 2> normal_impulse_ = {};
   int abandoned_ = 0;
@@ -155,8 +163,10 @@ class CollisionEvents {
   void index_pairs();
   void reset();
   void foresee(int pair, double now);
-  void schedule(int point);
-  void collide(int point, double now, Outcome &outcome);
+  void schedule(int point, double now);
+  void collide(const Event &event, Outcome &outcome);
+  void hit_wall(const Event &event, Outcome &outcome);
+  bool in_reach(const Point &point) const;
   bool turn_vertices(const VertexImpulse &impulse);
   void foresee_around(const std::array<int, 3> &vertices, double now);
 };
