@@ -84,6 +84,7 @@ void CollisionEvents::reset()
   touched_.clear();
   impulses_.clear();
   normal_impulse_ = {0.0, 0.0};
+  impulse_.setZero();
   abandoned_ = 0;
   std::fill_n(walls_.impulse, 3, 0.0);
   queue_ = {};
@@ -205,7 +206,7 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
 
   point.touching = first;
   ++point.bounces;
-  const bool give_up = point.bounces > 2 * MOST_BOUNCES;
+  const bool give_up = point.bounces > 2 * settings_.most_bounces;
   if (give_up) ++abandoned_;
 
   // a point that grazes approaches by rounding only, if at all
@@ -213,9 +214,10 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
   if (!give_up && pair.side * approach < 0.0) {
     const Vector3d impulse =
         collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
-                          inverse_masses, settings_.no_slip || point.bounces > MOST_BOUNCES);
+                          inverse_masses, settings_.no_slip || point.bounces > settings_.most_bounces);
     point.now.turn(now, impulse * point.inverse_mass);
     if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
+    impulse_ -= impulse;
     normal_impulse_[pair.side > 0 ? 0 : 1] += pair.side * impulse.dot(pair.hit.normal);
 
     VertexImpulse done = {now, point.tag, triangle.vertex, {}};
@@ -264,7 +266,7 @@ void CollisionEvents::foresee_around(const std::array<int, 3> &vertices, double 
       const int p = vertex_pairs_[j], point = pairs_[p].point;
       if (seen_[p] == clock_) continue;
       seen_[p] = clock_;
-      if (points_[point].bounces > 2 * MOST_BOUNCES) continue;
+      if (points_[point].bounces > 2 * settings_.most_bounces) continue;
       foresee(p, now);
       if (seen_[num_pairs + point] == clock_) continue;
       seen_[num_pairs + point] = clock_;

@@ -41,6 +41,11 @@ struct VertexImpulse {
   int64_t tag;                                ///< of the point
   std::array<int, 3> vertex;
   std::array<Eigen::Vector3d, 3> change;      ///< of the vertices' velocities
+
+  bool operator==(const VertexImpulse &b) const
+  {
+    return time == b.time && tag == b.tag && vertex == b.vertex && change == b.change;
+  }
 };
 
 /** All collisions of one time step between points and a surface, in the order of time.
@@ -58,10 +63,10 @@ class CollisionEvents {
   struct Settings {
     bool no_slip = false;
     double contact = 1.0e-10;    ///< see TriangleCollision
+    /// A point that bounces this often in one step is sent back where it came from, and after as
+    /// many again left alone.
+    int most_bounces = 5000;
   };
-  /// A point that bounces this often in one step is sent back where it came from, and after as
-  /// many again left alone.
-  static constexpr int MOST_BOUNCES = 5000;
 
   CollisionEvents() = default;
   explicit CollisionEvents(const Settings &settings) : settings_(settings)
@@ -110,6 +115,8 @@ class CollisionEvents {
   const std::vector<int> &touched() const { return touched_; }
   /// Sum over collisions of the impulse normal to the surface, of points on side +1 and -1.
   const std::array<double, 2> &normal_impulse() const { return normal_impulse_; }
+  /// Momentum that the surface took.
+  const Eigen::Vector3d &impulse() const { return impulse_; }
   /// Momentum that the walls took.
   Eigen::Vector3d wall_impulse() const { return Eigen::Vector3d::Map(walls_.impulse); }
 
@@ -158,6 +165,7 @@ class CollisionEvents {
   bool have_walls_ = false;
   std::vector<VertexImpulse> impulses_;
   std::array<double, 2> normal_impulse_ = {};
+  Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   int abandoned_ = 0;
 
   void index_pairs();

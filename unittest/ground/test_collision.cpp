@@ -69,7 +69,7 @@ struct Gas {
   long collisions = 0, strayed = 0;
 
   Gas(TriangleMesh m, double vertex_mass, bool no_slip = false) :
-      mesh(std::move(m)), events({no_slip, 1.0e-10})
+      mesh(std::move(m)), events({no_slip, 1.0e-10, 5000})
   {
     surface.faces = mesh.faces;
     const Matrix3d to_fraction = mesh.lattice.inverse();
