@@ -50,7 +50,7 @@ static constexpr int FACES_EVERY = 10;
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
-    check(true), limit_due(false), limit(0.0), watching(false),
+    moved_step(-1), remembers(false), check(true), limit_due(false), limit(0.0), watching(false),
     faces(std::make_unique<FaceWatch>(lmp, mass.mesh(), groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
@@ -203,6 +203,14 @@ void FixHDBase::drift(double step)
     if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most)) runaway = j;
   }
   if (runaway >= 0) report_runaway(atom->tag[runaway]);
+  if (!remembers) return;
+
+  if (moved_step != update->ntimestep) moved.assign(part.owned, Membrane_NS::Vector4{});
+  moved_step = update->ntimestep;
+  for (int i = 0; i < part.owned; ++i) {
+    const double *v = atom->v[part.atom_of(i)];
+    for (int k = 0; k < 3; ++k) moved[i].c[k] += step * v[k];
+  }
 }
 
 // on the rank that sees it: others may be anywhere in their step, so nothing can be computed now
@@ -225,5 +233,6 @@ void FixHDBase::report_runaway(tagint id_of_point)
 double FixHDBase::memory_usage()
 {
   return mass.memory_usage() + faces->memory_usage() +
-      sizeof(Membrane_NS::Vector4) * (force_field.capacity() + acceleration.capacity());
+      sizeof(Membrane_NS::Vector4) *
+      (force_field.capacity() + acceleration.capacity() + moved.capacity());
 }

@@ -38,10 +38,15 @@ class FixHDBase : public Fix {
   static FixHDBase *of_group(class LAMMPS *, int groupbit, const std::string &user);
   double drag_coefficient() const { return mass.drag_coefficient(); }
   const Membrane_NS::MassOperator::Settings &mass_settings() const { return mass.settings; }
+  /// From now on, remember by how much drift() moves the control points in a step.
+  void remember_displacement() { remembers = true; }
+  /// By how much it has in the present step; the order is that of part().
+  const Membrane_NS::VertexField &displacement() const { return moved; }
+  const MeshPart &part() { return mass.part(); }
 
  protected:
   HDMass mass;
-  Membrane_NS::VertexField force_field, acceleration;
+  Membrane_NS::VertexField force_field, acceleration, moved;
 
   /// acceleration = M^-1 f from the atoms' forces.
   void accelerate();
@@ -52,7 +57,8 @@ class FixHDBase : public Fix {
 
  private:
   double most_drift;
-  bool check, limit_due;
+  bigint moved_step;    // of which step `moved` is
+  bool remembers, check, limit_due;
   double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
   bool watching;
   std::unique_ptr<class FaceWatch> faces;

@@ -119,12 +119,15 @@ class MassOperator {
   void relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
              VertexField &v);
 
-  // === The limit mask (VERTEX)
+  // === The limit mask L (VERTEX)
 
   /// y = L x: limit positions of control points, velocities of the masses. Fills the halo of x.
   void apply_mask(VertexField &x, VertexField &y);
   /// x = L^-1 b, to the tolerance of the settings.
   void solve_mask(const VertexField &b, VertexField &x);
+  /// The entries of L at an owned vertex and at each of its neighbours.
+  double mask_centre(int i) const { return centre_[i]; }
+  double mask_spoke(int i) const { return spoke_[i]; }
 
   // === What a solve costs and gives
 

@@ -1,0 +1,667 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_srd_mesh.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hd_base.h"
+#include "force.h"
+#include "group.h"
+#include "modify.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using Membrane_NS::CollisionRule;
+
+static constexpr double DEGREE = 3.14159265358979323846 / 180.0;
+
+// with shorter free paths than these, in cells, solvent meets the same partners again and again
+static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
+
+/* ---------------------------------------------------------------------- */
+
+FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
+    cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
+    overlap(true), set_velocities(true), ghosts(false), bounces(0), level(0), search(0.0),
+    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
+    num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
+    clear_forces(false), values{}, carried{}, sampled(-1)
+{
+  time_integrate = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  restart_global = 1;
+  vector_flag = 1;
+  size_vector = NUM_VALUES;
+  global_freq = 1;
+  extvector = 0;
+
+  if (domain->dimension != 3) error->all(FLERR, "Fix srd/mesh needs dimension 3");
+  parse(narg, arg);
+  if (membrane < 0) return;
+  SurfaceObstacle::Settings settings;
+  settings.membranes = membrane;
+  settings.no_slip = noslip;
+  settings.most_bounces = bounces;
+  settings.spacing = search;
+  settings.stray = cell_settings.size;
+  settings.user = "Fix srd/mesh";
+  obstacle = std::make_unique<SurfaceObstacle>(lmp, settings);
+  grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+}
+
+FixSRDMesh::~FixSRDMesh()
+{
+  if (obstacle) atom->delete_callback(id, Atom::GROW);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSRDMesh::parse(int narg, char **arg)
+{
+  if (narg < 8) utils::missing_cmd_args(FLERR, "fix srd/mesh", error);
+  auto positive = [&](const char *what, const char *word) {
+    const double value = utils::numeric(FLERR, word, false, lmp);
+    if (!(value > 0.0)) error->all(FLERR, "Fix srd/mesh {} {} must be positive", what, word);
+    return value;
+  };
+  auto positive_integer = [&](const char *what, const char *word) {
+    const bigint value = utils::bnumeric(FLERR, word, false, lmp);
+    if (value <= 0) error->all(FLERR, "Fix srd/mesh {} {} must be positive", what, word);
+    return value;
+  };
+
+  nevery = utils::inumeric(FLERR, arg[3], false, lmp);
+  if (nevery <= 0) error->all(FLERR, "Fix srd/mesh N {} must be positive", arg[3]);
+  if (strcmp(arg[4], "NULL") != 0) {
+    membrane = group->find(arg[4]);
+    if (membrane < 0)
+      error->all(FLERR, "Fix srd/mesh: there is no group {} of membranes; NULL is for none",
+                 arg[4]);
+    mass = std::make_unique<HDMass>(lmp, membrane, "Fix srd/mesh");
+  }
+  temperature = positive("temperature", arg[5]);
+  cell_settings.size = positive("hgrid", arg[6]);
+  seed = cell_settings.rule.seed = positive_integer("seed", arg[7]);
+
+  int iarg = 8;
+  while (iarg < narg) {
+    const std::string key = arg[iarg];
+    auto need = [&](int n) {
+      if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix srd/mesh " + key, error);
+    };
+    auto choice = [&](const std::vector<std::string> &words) {
+      const auto found = std::find(words.begin(), words.end(), arg[iarg + 1]);
+      if (found == words.end()) {
+        std::string list = words[0];
+        for (size_t i = 1; i < words.size(); ++i)
+          list += (i + 1 == words.size() ? " or " : ", ") + words[i];
+        error->all(FLERR, "Fix srd/mesh {} {} is not {}", key, arg[iarg + 1], list);
+      }
+      return found - words.begin();
+    };
+    need(1);
+    const char *word = arg[iarg + 1];
+    int used = 2;
+    if (key == "lamda") {
+      lamda = positive("lamda", word);
+    } else if (key == "angle") {
+      const double degrees = utils::numeric(FLERR, word, false, lmp);
+      if (!(degrees > 0.0 && degrees <= 180.0))
+        error->all(FLERR, "Fix srd/mesh angle {} must be between 0 and 180 degrees", word);
+      cell_settings.rule.angle = DEGREE * degrees;
+    } else if (key == "method") {
+      cell_settings.rule.method = choice({"srd", "at+a"}) ? CollisionRule::Method::AT_A
+                                                          : CollisionRule::Method::SRD;
+    } else if (key == "collision") {
+      noslip = choice({"slip", "noslip"}) == 1;
+    } else if (key == "impulse") {
+      control = choice({"surface", "control"}) == 1;
+    } else if (key == "overlap") {
+      overlap = utils::logical(FLERR, word, false, lmp);
+    } else if (key == "inside") {
+      inside = static_cast<Inside>(choice({"error", "warn", "ignore"}));
+    } else if (key == "bounce") {
+      bounces = utils::inumeric(FLERR, word, false, lmp);
+      if (bounces < 0) error->all(FLERR, "Fix srd/mesh bounce {} must not be negative", word);
+    } else if (key == "search") {
+      search = positive("search", word);
+    } else if (key == "level") {
+      level = utils::inumeric(FLERR, word, false, lmp);
+      if (level < 0 || level > 4)
+        error->all(FLERR, "Fix srd/mesh level {} must be between 0 and 4", word);
+    } else if (key == "cubic") {
+      need(2);
+      used = 3;
+      cubic_error = choice({"error", "warn"}) == 0;
+      cubic_tolerance = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+      if (cubic_tolerance < 0.0 || cubic_tolerance > 1.0)
+        error->all(FLERR, "Fix srd/mesh cubic tolerance {} must be between 0 and 1", arg[iarg + 2]);
+    } else if (key == "shift") {
+      shift = static_cast<Shift>(choice({"no", "yes", "possible"}));
+      if (shift == Shift::NO && (iarg + 2 >= narg || !utils::is_integer(arg[iarg + 2]))) {
+        iarg += 2;    // a grid that stays needs no seed
+        continue;
+      }
+      need(2);
+      used = 3;
+      cell_settings.shift_seed = positive_integer("shift seed", arg[iarg + 2]);
+    } else if (key == "tstat") {
+      cell_settings.rule.thermostat = utils::logical(FLERR, word, false, lmp);
+    } else if (key == "velocity") {
+      set_velocities = choice({"keep", "create"}) == 1;
+    } else if (key == "ghosts") {
+      ghosts = utils::logical(FLERR, word, false, lmp);
+    } else if (key == "wall") {
+      streaming.walls.noslip = choice({"slip", "noslip"}) == 1;
+    } else if (key == "wall/velocity") {
+      need(4);
+      used = 5;
+      parse_wall_velocity(arg + iarg + 1);
+    } else
+      error->all(FLERR,
+                 "Unknown fix srd/mesh keyword {}; known are: lamda, angle, method, collision, "
+                 "impulse, overlap, inside, bounce, search, level, cubic, shift, tstat, velocity, "
+                 "ghosts, wall, wall/velocity",
+                 key);
+    iarg += used;
+  }
+  if (cell_settings.rule.method == CollisionRule::Method::AT_A && cell_settings.rule.thermostat)
+    error->all(FLERR, "Fix srd/mesh method at+a is a thermostat: leave out tstat yes");
+}
+
+void FixSRDMesh::parse_wall_velocity(char **arg)
+{
+  const std::vector<std::string> faces = {"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"};
+  const int f = std::find(faces.begin(), faces.end(), arg[0]) - faces.begin();
+  if (f == 6)
+    error->all(FLERR, "Fix srd/mesh wall/velocity {} is not xlo, xhi, ylo, yhi, zlo or zhi",
+               arg[0]);
+  if (domain->periodicity[f / 2])
+    error->all(FLERR, "Fix srd/mesh wall/velocity {}: the box is periodic there, without wall",
+               arg[0]);
+  for (int k = 0; k < 3; ++k)
+    streaming.walls.velocity[f][k] = utils::numeric(FLERR, arg[1 + k], false, lmp);
+  if (streaming.walls.velocity[f][f / 2] != 0.0)
+    error->all(FLERR, "Fix srd/mesh wall/velocity {}: a wall can move along itself only", arg[0]);
+}
+
+int FixSRDMesh::setmask()
+{
+  return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_NEIGHBOR | PRE_FORCE | MIN_PRE_FORCE |
+      FINAL_INTEGRATE | PRE_EXCHANGE | POST_RUN;
+}
+
+double FixSRDMesh::kT() const
+{
+  return force->boltz * temperature / force->mvv2e;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSRDMesh::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix srd/mesh does not work with run_style respa");
+  solvent.refresh();
+  check_group();
+  find_forces();
+  aside.init(!ghosts);
+  clear_forces = aside.active();
+  streaming.find_walls();
+
+  if (mass) {
+    if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
+      mass->settings = integrator->mass_settings();
+    if (group->count(membrane) > 0) {
+      mass->init();
+      obstacle->init();
+    }
+  }
+  prepare_cells();
+}
+
+/* ----------------------------------------------------------------------
+   solvent: some, no control points among it, moved by this fix alone
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::check_group()
+{
+  num_solvent = solvent.total();
+  if (num_solvent == 0)
+    error->all(FLERR,
+               "Fix srd/mesh: there is no solvent in group {}: use create_atoms or "
+               "create_solvent",
+               group->names[igroup]);
+
+  tagint bad[2] = {0, 0}, any[2];    // no mass, in both groups
+  const int membrane_bit = membrane >= 0 ? group->bitmask[membrane] : 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!solvent.has(i)) continue;
+    if (!(solvent.mass()[i] > 0.0)) bad[0] = MAX(bad[0], atom->tag[i]);
+    if (atom->mask[i] & membrane_bit) bad[1] = MAX(bad[1], atom->tag[i]);
+  }
+  MPI_Allreduce(bad, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (any[0]) error->all(FLERR, "Fix srd/mesh: solvent atom {} has no positive mass", any[0]);
+  if (any[1])
+    error->all(FLERR, "Fix srd/mesh: atom {} is both solvent and in the group of membranes",
+               any[1]);
+
+  for (auto &other : modify->get_fix_list()) {
+    if (other == this || !other->time_integrate) continue;
+    int mine = 0, moved;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (solvent.has(i) && atom->mask[i] & other->groupbit) mine = 1;
+    MPI_Allreduce(&mine, &moved, 1, MPI_INT, MPI_MAX, world);
+    if (moved)
+      error->all(
+          FLERR,
+          "Fix srd/mesh moves its solvent itself, and fix {} ({}) moves some of it, too: use "
+          "groups without common atoms",
+          other->id, other->style);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   most solvent feels no force: then there is none to read, nor to clear
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::find_forces()
+{
+  int mine = 0, any;
+  const auto &fixes = modify->get_fix_list();
+  for (size_t f = 0; f < fixes.size(); ++f) {
+    if (!(modify->fmask[f] & (POST_FORCE | PRE_REVERSE))) continue;
+    for (int i = 0; i < atom->nlocal && !mine; ++i)
+      if (solvent.has(i) && atom->mask[i] & fixes[f]->groupbit) mine = 1;
+  }
+  if (force->pair && force->pair->cutsq)
+    for (int i = 0; i < atom->nlocal && !mine; ++i)
+      for (int t = 1; t <= atom->ntypes && solvent.has(i); ++t)
+        if (force->pair->cutsq[atom->type[i]][t] > 0.0) mine = 1;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  have_forces = any;
+}
+
+/* ----------------------------------------------------------------------
+   cells, free path and what follows from them
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::prepare_cells()
+{
+  double p[4];
+  solvent.momentum(p);
+  solvent_mass = p[3] / num_solvent;
+  const double step = nevery * update->dt;
+  if (lamda > 0.0)
+    temperature = std::pow(lamda / step, 2) * solvent_mass * force->mvv2e / force->boltz;
+  cell_settings.rule.kT = kT();
+  values[FREE_PATH] = Membrane_NS::mean_free_path(kT(), solvent_mass, step);
+
+  const double path = values[FREE_PATH] / cell_settings.size;
+  cell_settings.shift = shift == Shift::YES || (shift == Shift::POSSIBLE && path < SHIFT_PATH);
+  if (!cell_settings.shift && path < SHORT_PATH)
+    error->all(FLERR,
+               "Fix srd/mesh: a mean free path of {:.4g} cells is too short for a grid that stays: "
+               "use shift yes, or a longer time between collisions",
+               path);
+  if (!cell_settings.shift && path < SHIFT_PATH && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix srd/mesh: with a mean free path of {:.4g} cells and no shift, flow depends "
+                   "on the velocity of the grid",
+                   path);
+
+  const bool first = !cells;
+  cells = std::make_unique<SRDCells>(lmp, cell_settings);
+  cells->grid.setup(cell_settings.size);
+  SRDGrid &grid = cells->grid;
+  filling = num_solvent * grid.cell_volume() / (domain->xprd * domain->yprd * domain->zprd);
+  if (grid.deviation() > cubic_tolerance) {
+    const std::string text = fmt::format(
+        "Fix srd/mesh: cells of {:.6g} x {:.6g} x {:.6g} that fit the box differ from hgrid {} by "
+        "more than {}: change the box or hgrid, or allow it with cubic warn {:.2g}",
+        grid.edge(0), grid.edge(1), grid.edge(2), cell_settings.size, cubic_tolerance,
+        std::ceil(100.0 * grid.deviation()) / 100.0);
+    if (cubic_error) error->all(FLERR, text);
+    if (comm->me == 0 && first) error->warning(FLERR, text);
+  }
+
+  const double edge = std::cbrt(grid.cell_volume());
+  values[VISCOSITY] = cell_settings.rule.method == CollisionRule::Method::SRD
+      ? Membrane_NS::srd_viscosity(filling, cell_settings.rule.angle, kT(), solvent_mass, edge,
+                                   step)
+      : Membrane_NS::at_viscosity(filling, kT(), solvent_mass, edge, step);
+  if (first) report();
+}
+
+void FixSRDMesh::report()
+{
+  if (comm->me != 0) return;
+  const SRDGrid &grid = cells->grid;
+  utils::logmesg(
+      lmp,
+      "Fix srd/mesh: {} solvent atoms in {} x {} x {} cells of {:.6g} x {:.6g} x {:.6g}\n"
+      "  atoms per cell = {:.6g}, mean free path = {:.6g}, viscosity = {:.6g}\n",
+      num_solvent, grid.divisions(0), grid.divisions(1), grid.divisions(2), grid.edge(0),
+      grid.edge(1), grid.edge(2), filling, values[FREE_PATH], values[VISCOSITY]);
+}
+
+// === Setup of a run
+
+void FixSRDMesh::setup_pre_exchange()
+{
+  aside.update();
+}
+
+void FixSRDMesh::setup_pre_neighbor()
+{
+  pre_neighbor();
+  zero_forces();
+}
+
+void FixSRDMesh::setup_pre_force(int)
+{
+  zero_forces();
+  if (!velocities_set && set_velocities) maxwell();
+  velocities_set = true;
+}
+
+void FixSRDMesh::setup(int)
+{
+  sampled = -1;
+  have_obstacle = obstacle && group->count(membrane) > 0;
+  if (have_obstacle) obstacle->setup(solvent);
+}
+
+/* ----------------------------------------------------------------------
+   Maxwell's distribution less its momentum, then scaled to the temperature
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::maxwell()
+{
+  double **v = atom->v;
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i))
+      Membrane_NS::thermal_velocity(seed, update->ntimestep, atom->tag[i], kT(), solvent.mass()[i],
+                                    v[i]);
+  double p[4];
+  solvent.momentum(p);
+  double mine = 0.0, twice_energy;
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!solvent.has(i)) continue;
+    for (int k = 0; k < 3; ++k) {
+      v[i][k] -= p[k] / p[3];
+      mine += solvent.mass()[i] * v[i][k] * v[i][k];
+    }
+  }
+  MPI_Allreduce(&mine, &twice_energy, 1, MPI_DOUBLE, MPI_SUM, world);
+  if (num_solvent < 2) return;
+  const double scale = std::sqrt(3.0 * (num_solvent - 1) * kT() / twice_energy);
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i))
+      for (int k = 0; k < 3; ++k) v[i][k] *= scale;
+}
+
+// === A step
+
+bool FixSRDMesh::is_due() const
+{
+  return update->ntimestep % nevery == 0;
+}
+
+void FixSRDMesh::initial_integrate(int)
+{
+  if (have_forces) kick();
+}
+
+void FixSRDMesh::final_integrate()
+{
+  if (have_forces) kick();
+  if (have_obstacle) obstacle->remember();
+}
+
+void FixSRDMesh::post_run()
+{
+  if (have_obstacle) check_sides();
+}
+
+void FixSRDMesh::kick()
+{
+  const double half = 0.5 * update->dt * force->ftm2v;
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!solvent.has(i)) continue;
+    const double scale = half / solvent.mass()[i];
+    for (int k = 0; k < 3; ++k) atom->v[i][k] += scale * atom->f[i][k];
+  }
+}
+
+void FixSRDMesh::post_integrate()
+{
+  if (have_obstacle) {
+    streaming.place_walls();
+    obstacle->stream(solvent, streaming.walls, update->dt);
+  } else
+    streaming.stream(solvent, update->dt);
+  sampled = -1;
+  const bool due = is_due();
+  if (due && aside.active())
+    for (int i = solvent.first(); i < solvent.last(); ++i)
+      if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
+  if ((due && domain->deform_vremap) || (comm->nprocs > 1 && any_strayed()))
+    next_reneighbor = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   solvent that has strayed too far goes to its new owner in this step
+------------------------------------------------------------------------- */
+
+bool FixSRDMesh::any_strayed()
+{
+  int mine = 0, any;
+  for (int i = solvent.first(); i < solvent.last() && !mine; ++i)
+    mine = cells->grid.strayed(atom->x[i]) && solvent.has(i);
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
+}
+
+void FixSRDMesh::pre_neighbor()
+{
+  solvent.refresh();
+  cells->grid.setup(cell_settings.size);
+  if (!have_forces) zero_forces();
+}
+
+void FixSRDMesh::pre_force(int)
+{
+  if (have_forces) zero_forces();
+  if (!is_due()) return;
+  if (domain->box_change) cells->grid.setup(cell_settings.size);
+  cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
+}
+
+void FixSRDMesh::min_pre_force(int)
+{
+  zero_forces();
+}
+
+void FixSRDMesh::zero_forces()
+{
+  if (!clear_forces) return;
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) std::fill_n(atom->f[i], 3, 0.0);
+}
+
+// === Output
+
+double FixSRDMesh::compute_vector(int i)
+{
+  if (!cells) return 0.0;
+  if (sampled != update->ntimestep) sample();
+  return values[i];
+}
+
+void FixSRDMesh::sample()
+{
+  sampled = update->ntimestep;
+  solvent.refresh();
+  if (have_obstacle) check_sides();
+  const double unit = force->mvv2e / force->boltz;
+  const auto thermal = cells->measure(solvent, sides());
+  auto temperature_of = [unit](const Membrane_NS::CellEnergy &e) {
+    return e.freedom > 0.0 ? unit * e.energy / e.freedom : 0.0;
+  };
+  values[TEMPERATURE] = temperature_of(thermal.all);
+  values[TEMPERATURE_IN] = temperature_of(thermal.inside);
+  values[TEMPERATURE_OUT] = temperature_of(thermal.outside);
+
+  double p[4];
+  solvent.momentum(p);
+  std::copy_n(p, 3, values + MOMENTUM);
+  if (mass && mass->count() > 0) {
+    mass->refresh();
+    Membrane_NS::VertexField v, pv;
+    mass->part().load(atom->v, v);
+    pv.resize(v.size());
+    mass->matrix().multiply(v, pv);
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < mass->part().owned; ++i)
+      for (int k = 0; k < 3; ++k) sum[k] += pv[i].c[k];
+    mass->part().sum(sum, 3);
+    for (int k = 0; k < 3; ++k) values[MOMENTUM + k] += sum[k];
+  }
+
+  sample_obstacle();
+  MPI_Allreduce(streaming.walls.impulse, values + WALLS, 3, MPI_DOUBLE, MPI_SUM, world);
+  for (int i = 0; i < NUM_VALUES; ++i) values[i] += carried[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSRDMesh::sample_obstacle()
+{
+  values[INSIDE] = 0.0;
+  values[OUTSIDE] = static_cast<double>(num_solvent);
+  if (!have_obstacle) return;
+  constexpr int N = SurfaceObstacle::NUM_TALLIES;
+  double sum[N];
+  MPI_Allreduce(obstacle->tally, sum, N, MPI_DOUBLE, MPI_SUM, world);
+  values[COLLISIONS] = sum[SurfaceObstacle::COLLISIONS];
+  values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS];
+  values[RESCUES] = sum[SurfaceObstacle::RESCUES];
+  std::copy_n(sum + SurfaceObstacle::HANDED, 3, values + HANDED);
+
+  const SurfaceRegions &regions = obstacle->regions;
+  bigint mine = 0, all;
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    mine += solvent.has(i) && regions.is_inside(regions.region[i]);
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  values[INSIDE] = static_cast<double>(all);
+  values[OUTSIDE] = static_cast<double>(num_solvent - all);
+}
+
+// solvent on the two sides of a membrane does not collide with each other
+
+const int *FixSRDMesh::sides()
+{
+  if (!have_obstacle) return nullptr;
+  const SurfaceRegions &regions = obstacle->regions;
+  side.resize(atom->nlocal);
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) side[i] = regions.parity(regions.region[i], atom->image[i]);
+  return side.data();
+}
+
+void FixSRDMesh::check_sides()
+{
+  solvent.refresh();
+  const bigint crossed = obstacle->check(solvent);
+  if (!crossed || inside == Inside::IGNORE) return;
+  const std::string text = fmt::format(
+      "Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", crossed);
+  if (inside == Inside::ERROR) error->all(FLERR, text);
+  if (comm->me == 0) error->warning(FLERR, text + ", and were put back");
+}
+
+// === Per-atom data: the region of each solvent atom
+
+void FixSRDMesh::grow_arrays(int nmax)
+{
+  obstacle->regions.grow(nmax);
+}
+
+void FixSRDMesh::copy_arrays(int i, int j, int)
+{
+  obstacle->regions.region[j] = obstacle->regions.region[i];
+}
+
+void FixSRDMesh::set_arrays(int i)
+{
+  obstacle->regions.region[i] = 0;
+}
+
+int FixSRDMesh::pack_exchange(int i, double *buf)
+{
+  buf[0] = obstacle->regions.region[i];
+  return 1;
+}
+
+int FixSRDMesh::unpack_exchange(int i, double *buf)
+{
+  obstacle->regions.region[i] = static_cast<int>(buf[0]);
+  return 1;
+}
+
+// === Restart
+
+void FixSRDMesh::write_restart(FILE *fp)
+{
+  if (cells) sample();
+  double list[NUM_VALUES + 1] = {};
+  list[0] = velocities_set;
+  for (int i : {(int) COLLISIONS, (int) CROSSINGS, (int) RESCUES, (int) HANDED, HANDED + 1,
+                HANDED + 2, (int) WALLS, WALLS + 1, WALLS + 2})
+    list[1 + i] = cells ? values[i] : carried[i];
+  if (comm->me != 0) return;
+  const int size = sizeof(list);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(list, sizeof(list), 1, fp);
+}
+
+void FixSRDMesh::restart(char *buf)
+{
+  double list[NUM_VALUES + 1];
+  memcpy(list, buf, sizeof(list));
+  velocities_set = list[0] != 0.0;
+  std::copy_n(list + 1, (int) NUM_VALUES, carried);
+}
+
+double FixSRDMesh::memory_usage()
+{
+  return cells ? cells->memory_usage() : 0.0;
+}

@@ -1,0 +1,57 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SRD_SOLVENT_H
+#define LMP_SRD_SOLVENT_H
+
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Which owned atoms are solvent, and their masses.
+class SRDSolvent : protected Pointers {
+ public:
+  SRDSolvent(class LAMMPS *, int igroup);
+
+  /// Call after reneighbouring.
+  void refresh();
+
+  /// Solvent atoms are in [first, last); all atoms of the range if dense().
+  int first() const { return begin; }
+  int last() const { return end; }
+  bool dense() const { return end - begin == mine; }
+  bool has(int i) const { return mask[i] & groupbit; }
+  /// Solvent atoms of this rank.
+  int count() const { return mine; }
+  /// Mass of owned atom i, by index.
+  const double *mass() const { return masses; }
+
+  // === Sums over all ranks; collective
+
+  bigint total() const;
+  /// Momentum, and mass as the fourth number.
+  void momentum(double *) const;
+
+ private:
+  int groupbit;
+  int begin = 0, end = 0, mine = 0;
+  const int *mask = nullptr;
+  const double *masses = nullptr;
+  std::vector<double> by_type;    // for atom styles without masses of their own
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
