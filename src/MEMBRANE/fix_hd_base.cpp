@@ -50,10 +50,13 @@ static constexpr int FACES_EVERY = 10;
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
-    moved_step(-1), remembers(false), check(true), limit_due(false), limit(0.0), watching(false),
+    moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0), watching(false),
     faces(std::make_unique<FaceWatch>(lmp, mass.mesh(), groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
+  vector_flag = global_freq = 1;
+  size_vector = 2;
+  extvector = 0;
 }
 
 FixHDBase::~FixHDBase() = default;
@@ -174,6 +177,13 @@ void FixHDBase::accelerate()
   mass.part().load(atom->f, force_field);
   acceleration.resize(force_field.size());
   mass.matrix().solve(force_field, acceleration);
+  passes = mass.matrix().iterations();
+}
+
+double FixHDBase::compute_vector(int i)
+{
+  if (passes == 0) return 0.0;    // before the first run
+  return i == 0 ? passes : mass.matrix().residual(force_field, acceleration);
 }
 
 void FixHDBase::kick(double step)

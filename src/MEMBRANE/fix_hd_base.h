@@ -31,6 +31,8 @@ class FixHDBase : public Fix {
   void setup(int) override;
   void pre_force(int) override;
   int modify_param(int, char **) override;
+  /// 0: passes over the mesh of the last M^-1 f; 1: its residual |f - M a|/|f|
+  double compute_vector(int) override;
   double memory_usage() override;
 
   /// The fix of this kind that moves atoms of the group, if any. Collective; stops if there are
@@ -58,6 +60,7 @@ class FixHDBase : public Fix {
  private:
   double most_drift;
   bigint moved_step;    // of which step `moved` is
+  int passes;           // of the last accelerate()
   bool remembers, check, limit_due;
   double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
   bool watching;

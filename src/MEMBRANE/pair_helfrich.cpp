@@ -106,7 +106,7 @@ void PairHelfrich::allocate()
   memory->create(cutsq, n, n, "pair:cutsq");
   for (int i = 1; i < n; ++i)
     for (int j = 1; j < n; ++j) setflag[i][j] = i == j;
-  coefficients.assign(n, Coefficients());
+  coefficients.assign(n, HelfrichCoefficients());
 }
 
 void PairHelfrich::coeff(int narg, char **arg)
@@ -118,65 +118,8 @@ void PairHelfrich::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
 
-  Coefficients c;
-  c.set = true;
+  HelfrichCoefficients c = HelfrichCoefficients::parse(lmp, narg - 2, arg + 2);
   c.fresh = !restored;
-  c.kc = utils::numeric(FLERR, arg[2], false, lmp);
-  c.c0 = utils::numeric(FLERR, arg[3], false, lmp);
-  if (c.kc < 0.0) error->all(FLERR, "pair_coeff helfrich bending modulus {} is negative", arg[2]);
-
-  auto value = [&](int iarg, int offset) {
-    if (iarg + offset >= narg)
-      utils::missing_cmd_args(FLERR, std::string("pair_coeff helfrich ") + arg[iarg], error);
-    return arg[iarg + offset];
-  };
-  auto modulus = [&](int iarg) {
-    const double k = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-    if (k < 0.0)
-      error->all(FLERR, "pair_coeff helfrich {} modulus {} is negative", arg[iarg], arg[iarg + 1]);
-    return k;
-  };
-  auto reference = [&](int iarg, double &target, bool &init) {
-    init = strcmp(value(iarg, 2), "init") == 0;
-    if (init) return;
-    target = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-    if (target <= 0.0)
-      error->all(FLERR, "pair_coeff helfrich reference {} {} must be positive or init", arg[iarg],
-                 arg[iarg + 2]);
-  };
-
-  int iarg = 4;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    if (key == "kg") {
-      c.kg = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-      iarg += 2;
-    } else if (key == "tension") {
-      c.tension = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-      iarg += 2;
-    } else if (key == "area") {
-      c.area_modulus = modulus(iarg);
-      reference(iarg, c.area, c.area_init);
-      iarg += 3;
-    } else if (key == "area/local") {
-      c.local_area_modulus = modulus(iarg);
-      iarg += 2;
-    } else if (key == "volume") {
-      c.volume_modulus = modulus(iarg);
-      reference(iarg, c.volume, c.volume_init);
-      iarg += 3;
-    } else if (key == "pressure") {
-      c.pressure = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-      iarg += 2;
-    } else if (key == "regularize") {
-      c.regularize = modulus(iarg);
-      iarg += 2;
-    } else
-      error->all(FLERR,
-                 "Unknown pair_coeff helfrich keyword {}; known are: kg, tension, area, area/local, "
-                 "volume, pressure, regularize",
-                 key);
-  }
 
   int count = 0;
   for (int i = MAX(ilo, jlo); i <= MIN(ihi, jhi); ++i) {
@@ -188,13 +131,6 @@ void PairHelfrich::coeff(int narg, char **arg)
                "pair_coeff {} {}: pair helfrich has coefficients per control-point type, so give "
                "the same type twice",
                arg[0], arg[1]);
-}
-
-bool PairHelfrich::Coefficients::same_global_terms(const Coefficients &o) const
-{
-  return area_modulus == o.area_modulus && area == o.area && area_init == o.area_init &&
-      volume_modulus == o.volume_modulus && volume == o.volume && volume_init == o.volume_init &&
-      pressure == o.pressure && local_area_modulus == o.local_area_modulus;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -286,7 +222,7 @@ void PairHelfrich::choose_terms()
       if (types[m * (atom->ntypes + 1) + t] && coefficients[t].uses_totals()) whole_terms[m] = 1;
   const std::vector<char> excluded = find_excluded(whole_terms);
 
-  static const Coefficients NOTHING;
+  static const HelfrichCoefficients NOTHING;
   membrane_terms.assign(nmembranes, nullptr);
   membrane_volume.assign(nmembranes, 0);
   first_pass = volumes = area_local = gauss = regularized = false;
@@ -297,7 +233,7 @@ void PairHelfrich::choose_terms()
         membrane_terms[m] = &NOTHING;
         continue;
       }
-      const Coefficients &c = coefficients[t];
+      const HelfrichCoefficients &c = coefficients[t];
       const tagint molecule = mesh->molecules()[m];
       if (!membrane_terms[m]) membrane_terms[m] = &c;
       if (c.fresh) references.erase(molecule);
@@ -427,7 +363,7 @@ void PairHelfrich::localize()
     for (int s = 0; s < group.nslots(); ++s) {
       const int slot = group.first_slot + s;
       for (int k = 0; k < 3; ++k) {
-        const Coefficients &c = coefficients[atom->type[group.point(s, k)]];
+        const HelfrichCoefficients &c = coefficients[atom->type[group.point(s, k)]];
         model.kc[slot] += c.kc / 3.0;
         model.c0[slot] += c.c0 / 3.0;
         model.kg[slot] += c.kg / 3.0;
@@ -449,7 +385,7 @@ void PairHelfrich::take_references()
   const auto &membranes = totals.membranes();
   bool missing = false;
   for (size_t m = 0; m < molecules.size(); ++m) {
-    const Coefficients &c = *membrane_terms[m];
+    const HelfrichCoefficients &c = *membrane_terms[m];
     Reference &reference = references[molecules[m]];
     if (c.area_modulus != 0.0) {
       if (!c.area_init) reference.area = c.area;
@@ -500,7 +436,7 @@ void PairHelfrich::apply_global_terms()
   const auto &membranes = totals.membranes();
   std::vector<double> tension(molecules.size(), 0.0), pressure(molecules.size(), 0.0);
   for (size_t m = 0; m < molecules.size(); ++m) {
-    const Coefficients &c = *membrane_terms[m];
+    const HelfrichCoefficients &c = *membrane_terms[m];
     const Reference &reference = references[molecules[m]];
     if (c.area_modulus != 0.0)
       tension[m] = c.area_modulus * (membranes[m].area - reference.area) / reference.area;
@@ -535,7 +471,7 @@ void PairHelfrich::share_volume_recoil()
     if (v < 0) continue;
     const int c = topology.component(v), m = mesh->membrane(c);
     if (!membrane_volume[m]) continue;
-    const Coefficients &terms = *membrane_terms[m];
+    const HelfrichCoefficients &terms = *membrane_terms[m];
     double pressure = -terms.pressure;
     if (terms.volume_modulus != 0.0) {
       const double v0 = references[molecules[m]].volume;
@@ -644,7 +580,7 @@ void PairHelfrich::tally()
   std::vector<double> area_energy(molecules.size(), 0.0), volume_energy(molecules.size(), 0.0);
   if (eflag_either && first_pass)
     for (size_t m = 0; m < molecules.size(); ++m) {
-      const Coefficients &c = *membrane_terms[m];
+      const HelfrichCoefficients &c = *membrane_terms[m];
       const Reference &reference = references[molecules[m]];
       if (c.area_modulus != 0.0) {
         const double excess = membranes[m].area - reference.area;
@@ -780,14 +716,14 @@ void PairHelfrich::read_restart_settings(FILE *fp)
 void PairHelfrich::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
-  fwrite(coefficients.data(), sizeof(Coefficients), coefficients.size(), fp);
+  fwrite(coefficients.data(), sizeof(HelfrichCoefficients), coefficients.size(), fp);
 }
 
 void PairHelfrich::read_restart(FILE *fp)
 {
   read_restart_settings(fp);
   allocate();
-  read_all(fp, coefficients.data(), sizeof(Coefficients), coefficients.size());
+  read_all(fp, coefficients.data(), sizeof(HelfrichCoefficients), coefficients.size());
 }
 
 /* ---------------------------------------------------------------------- */

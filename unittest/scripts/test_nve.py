@@ -44,6 +44,16 @@ def slope(xs, ys):
     return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx)**2 for x in xs)
 
 
+# === The residual that a solution reaches
+
+for options, tolerance in (("mass vertex", 1e-10), ("mass vertex tol 1e-6", 1e-6), ("mass lumped", 1e-14),
+                           ("mass consistent tol 1e-8", 1e-8), ("mass consistent solver direct", 1e-12)):
+    rows = thermo(run(SCENE.format(**ICOSPHERE, options=options) +
+                      "thermo_style custom step f_1[1] f_1[2]\nthermo 10\ntimestep 1e-5\nrun 20\n"))[-3:]
+    worst = max(row["f_1[2]"] for row in rows)
+    claim(f"{options}: the residual is reported and within a factor of 3 of tol", worst < 3 * tolerance,
+          f"{worst:.1e} in {rows[-1]['f_1[1]']:.0f} passes")
+
 # === Order of the energy error
 
 for options in ("mass vertex", "mass consistent", "mass lumped"):
