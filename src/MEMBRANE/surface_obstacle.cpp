@@ -170,9 +170,9 @@ void SurfaceObstacle::stream_bulk(const SRDSolvent &solvent, BoxWalls &walls, do
     if (!dense && !solvent.has(i)) continue;
     double *xi = x[i], *vi = v[i];
     const int cube = grid.cube(xi);
-    if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) ||
-        !(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2] < most))
-      near.push_back(i);
+    const double square = vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2];
+    if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) || !(square < most))
+      near.push_back({i, {Vector3d::Map(xi), Vector3d::Map(vi)}, std::sqrt(square)});
     else if (have_walls)
       walls.stream(xi, vi, solvent.mass()[i], dt);
     else
@@ -189,12 +189,12 @@ bool SurfaceObstacle::collect(const SRDSolvent &solvent, const BoxWalls &walls, 
   grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
   entered.clear();
-  for (int i : near) {
-    const MovingPoint path = {Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i])};
-    const double reach = dt * path.velocity.norm() + point_slack;
+  for (size_t n = 0; n < near.size(); ++n) {
+    const auto &[i, path, speed] = near[n];
+    const double reach = dt * speed + point_slack;
     if (!grid.find(path.origin, reach, found)) return false;
     if (found.empty()) continue;
-    entered.push_back(i);
+    entered.push_back(n);
     events.add_point(path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
     for (int t : found) {
       const auto &image = grid.images()[t];
@@ -268,18 +268,19 @@ bool SurfaceObstacle::exchange()
 
 void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double dt)
 {
-  for (size_t n = 0; n < entered.size(); ++n) {
-    const int i = entered[n];
-    const MovingPoint &path = events.path(n);
-    Vector3d::Map(atom->x[i]) = path.at(dt);
-    Vector3d::Map(atom->v[i]) = path.velocity;
-  }
+  const bool have_walls = walls.any();
   size_t next = 0;
-  for (int i : near) {
-    if (next < entered.size() && entered[next] == i)
-      ++next;
+  for (size_t n = 0; n < near.size(); ++n) {
+    const int i = near[n].atom;
+    double *x = atom->x[i], *v = atom->v[i];
+    if (next < entered.size() && entered[next] == (int) n) {
+      const MovingPoint &path = events.path(next++);
+      Vector3d::Map(x) = path.at(dt);
+      Vector3d::Map(v) = path.velocity;
+    } else if (have_walls)
+      walls.stream(x, v, solvent.mass()[i], dt);
     else
-      walls.stream(atom->x[i], atom->v[i], solvent.mass()[i], dt);
+      Vector3d::Map(x) += dt * near[n].path.velocity;
   }
   Vector3d::Map(walls.impulse) += events.wall_impulse();
 

@@ -73,8 +73,13 @@ class SurfaceObstacle : protected Pointers {
   Membrane_NS::SurfaceGrid grid;
   bigint built_epoch;
   std::vector<char> shared;    // vertices that atoms of several ranks may touch
-  std::vector<int> near;       // atoms that need a closer look
-  std::vector<int> entered;    // those of them that may meet a triangle
+  struct Near {                // an atom that needs a closer look
+    int atom;
+    Membrane_NS::MovingPoint path;
+    double speed;
+  };
+  std::vector<Near> near;
+  std::vector<int> entered;    // those of them that may meet a triangle, by number
   std::vector<int> found;
   double vertex_slack, point_slack;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
