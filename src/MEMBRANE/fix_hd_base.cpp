@@ -45,7 +45,7 @@ static constexpr int WORTH_CHECKING = 250;
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
-    check(true), limit_due(false), limit(0.0)
+    moved_step(-1), check(true), limit_due(false), limit(0.0)
 {
   time_integrate = 1;
 }
@@ -167,14 +167,19 @@ void FixHDBase::drift(double step)
   if (limit_due) find_limit();
 
   MeshPart &part = mass.part();
+  if (moved_step != update->ntimestep) moved.assign(part.owned, Membrane_NS::Vector4{});
+  moved_step = update->ntimestep;
   int runaway = -1;
   for (int i = 0; i < part.owned; ++i) {
     const int j = part.atom_of(i);
     double *x = atom->x[j];
     const double *v = atom->v[j];
-    for (int k = 0; k < 3; ++k) x[k] += step * v[k];
-    const double moved = step * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(moved < most_drift)) runaway = j;
+    for (int k = 0; k < 3; ++k) {
+      x[k] += step * v[k];
+      moved[i].c[k] += step * v[k];
+    }
+    const double way = step * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(way < most_drift)) runaway = j;
   }
   if (runaway >= 0) report_runaway(atom->tag[runaway]);
 }
@@ -199,5 +204,5 @@ void FixHDBase::report_runaway(tagint id_of_point)
 double FixHDBase::memory_usage()
 {
   return mass.memory_usage() +
-      sizeof(Membrane_NS::Vector4) * (force_field.capacity() + acceleration.capacity());
+      sizeof(Membrane_NS::Vector4) * (force_field.capacity() + acceleration.capacity() + moved.capacity());
 }

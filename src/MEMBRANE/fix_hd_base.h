@@ -34,10 +34,14 @@ class FixHDBase : public Fix {
   static FixHDBase *of_group(class LAMMPS *, int groupbit, const std::string &user);
   double drag_coefficient() const { return mass.drag_coefficient(); }
   const Membrane_NS::MassOperator::Settings &mass_settings() const { return mass.settings; }
+  /// By how much this fix has moved the control points in the present step, as drift() left them; the
+  /// order is that of part().
+  const Membrane_NS::VertexField &displacement() const { return moved; }
+  const MeshPart &part() { return mass.part(); }
 
  protected:
   HDMass mass;
-  Membrane_NS::VertexField force_field, acceleration;
+  Membrane_NS::VertexField force_field, acceleration, moved;
 
   /// acceleration = M^-1 f from the atoms' forces.
   void accelerate();
@@ -48,6 +52,7 @@ class FixHDBase : public Fix {
 
  private:
   double most_drift;
+  bigint moved_step;    // of which step `moved` is
   bool check, limit_due;
   double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
 

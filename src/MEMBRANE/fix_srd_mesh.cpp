@@ -48,7 +48,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
     cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
     overlap(true), set_velocities(true), ghosts(false), bounces(0), level(0), search(0.0),
-    solvent(lmp, igroup), streaming(lmp), aside(lmp, igroup, std::string("not_solvent_of_") + id),
+    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     clear_forces(false), values{}, carried{}, sampled(-1)
 {
@@ -63,6 +63,22 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
 
   if (domain->dimension != 3) error->all(FLERR, "Fix srd/mesh needs dimension 3");
   parse(narg, arg);
+  if (membrane < 0) return;
+  SurfaceObstacle::Settings settings;
+  settings.membranes = membrane;
+  settings.no_slip = noslip;
+  settings.most_bounces = bounces;
+  settings.spacing = search;
+  settings.stray = cell_settings.size;
+  settings.user = "Fix srd/mesh";
+  obstacle = std::make_unique<SurfaceObstacle>(lmp, settings);
+  grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+}
+
+FixSRDMesh::~FixSRDMesh()
+{
+  if (obstacle) atom->delete_callback(id, Atom::GROW);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -91,7 +107,7 @@ void FixSRDMesh::parse(int narg, char **arg)
     mass = std::make_unique<HDMass>(lmp, membrane, "Fix srd/mesh");
   }
   temperature = positive("temperature", arg[5]);
-  cell_settings.size = search = positive("hgrid", arg[6]);
+  cell_settings.size = positive("hgrid", arg[6]);
   seed = cell_settings.rule.seed = positive_integer("seed", arg[7]);
 
   int iarg = 8;
@@ -199,7 +215,7 @@ void FixSRDMesh::parse_wall_velocity(char **arg)
 int FixSRDMesh::setmask()
 {
   return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_NEIGHBOR | PRE_FORCE | MIN_PRE_FORCE |
-      FINAL_INTEGRATE | PRE_EXCHANGE;
+      FINAL_INTEGRATE | PRE_EXCHANGE | POST_RUN;
 }
 
 double FixSRDMesh::kT() const
@@ -223,7 +239,10 @@ void FixSRDMesh::init()
   if (mass) {
     if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
       mass->settings = integrator->mass_settings();
-    if (group->count(membrane) > 0) mass->init();
+    if (group->count(membrane) > 0) {
+      mass->init();
+      obstacle->init();
+    }
   }
   prepare_cells();
 }
@@ -376,6 +395,8 @@ void FixSRDMesh::setup_pre_force(int)
 void FixSRDMesh::setup(int)
 {
   sampled = -1;
+  have_obstacle = obstacle && group->count(membrane) > 0;
+  if (have_obstacle) obstacle->setup(solvent);
 }
 
 /* ----------------------------------------------------------------------
@@ -422,6 +443,12 @@ void FixSRDMesh::initial_integrate(int)
 void FixSRDMesh::final_integrate()
 {
   if (have_forces) kick();
+  if (have_obstacle) obstacle->remember();
+}
+
+void FixSRDMesh::post_run()
+{
+  if (have_obstacle) check_sides();
 }
 
 void FixSRDMesh::kick()
@@ -436,7 +463,11 @@ void FixSRDMesh::kick()
 
 void FixSRDMesh::post_integrate()
 {
-  streaming.stream(solvent, update->dt);
+  if (have_obstacle) {
+    streaming.place_walls();
+    obstacle->stream(solvent, streaming.walls, update->dt);
+  } else
+    streaming.stream(solvent, update->dt);
   sampled = -1;
   const bool due = is_due();
   if (due && aside.active())
@@ -471,7 +502,7 @@ void FixSRDMesh::pre_force(int)
   if (have_forces) zero_forces();
   if (!is_due()) return;
   if (domain->box_change) cells->grid.setup(cell_settings.size);
-  cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass);
+  cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
 }
 
 void FixSRDMesh::min_pre_force(int)
@@ -499,8 +530,9 @@ void FixSRDMesh::sample()
 {
   sampled = update->ntimestep;
   solvent.refresh();
+  if (have_obstacle) check_sides();
   const double unit = force->mvv2e / force->boltz;
-  const auto thermal = cells->measure(solvent, nullptr);
+  const auto thermal = cells->measure(solvent, sides());
   auto temperature_of = [unit](const Membrane_NS::CellEnergy &e) {
     return e.freedom > 0.0 ? unit * e.energy / e.freedom : 0.0;
   };
@@ -524,10 +556,85 @@ void FixSRDMesh::sample()
     for (int k = 0; k < 3; ++k) values[MOMENTUM + k] += sum[k];
   }
 
-  values[INSIDE] = 0.0;
-  values[OUTSIDE] = static_cast<double>(num_solvent);
+  sample_obstacle();
   MPI_Allreduce(streaming.walls.impulse, values + WALLS, 3, MPI_DOUBLE, MPI_SUM, world);
   for (int i = 0; i < NUM_VALUES; ++i) values[i] += carried[i];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixSRDMesh::sample_obstacle()
+{
+  values[INSIDE] = 0.0;
+  values[OUTSIDE] = static_cast<double>(num_solvent);
+  if (!have_obstacle) return;
+  constexpr int N = SurfaceObstacle::NUM_TALLIES;
+  double sum[N];
+  MPI_Allreduce(obstacle->tally, sum, N, MPI_DOUBLE, MPI_SUM, world);
+  values[COLLISIONS] = sum[SurfaceObstacle::COLLISIONS];
+  values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS];
+  values[RESCUES] = sum[SurfaceObstacle::RESCUES];
+  std::copy_n(sum + SurfaceObstacle::HANDED, 3, values + HANDED);
+
+  const SurfaceRegions &regions = obstacle->regions;
+  bigint mine = 0, all;
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    mine += solvent.has(i) && regions.is_inside(regions.region[i]);
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  values[INSIDE] = static_cast<double>(all);
+  values[OUTSIDE] = static_cast<double>(num_solvent - all);
+}
+
+// solvent on the two sides of a membrane does not collide with each other
+
+const int *FixSRDMesh::sides()
+{
+  if (!have_obstacle) return nullptr;
+  const SurfaceRegions &regions = obstacle->regions;
+  side.resize(atom->nlocal);
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) side[i] = regions.parity(regions.region[i], atom->image[i]);
+  return side.data();
+}
+
+void FixSRDMesh::check_sides()
+{
+  solvent.refresh();
+  const bigint crossed = obstacle->check(solvent);
+  if (!crossed || inside == Inside::IGNORE) return;
+  const std::string text = fmt::format(
+      "Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", crossed);
+  if (inside == Inside::ERROR) error->all(FLERR, text);
+  if (comm->me == 0) error->warning(FLERR, text + ", and were put back");
+}
+
+// === Per-atom data: the region of each solvent atom
+
+void FixSRDMesh::grow_arrays(int nmax)
+{
+  obstacle->regions.grow(nmax);
+}
+
+void FixSRDMesh::copy_arrays(int i, int j, int)
+{
+  obstacle->regions.region[j] = obstacle->regions.region[i];
+}
+
+void FixSRDMesh::set_arrays(int i)
+{
+  obstacle->regions.region[i] = 0;
+}
+
+int FixSRDMesh::pack_exchange(int i, double *buf)
+{
+  buf[0] = obstacle->regions.region[i];
+  return 1;
+}
+
+int FixSRDMesh::unpack_exchange(int i, double *buf)
+{
+  obstacle->regions.region[i] = static_cast<int>(buf[0]);
+  return 1;
 }
 
 // === Restart

@@ -26,6 +26,7 @@ FixStyle(srd/mesh,FixSRDMesh);
 #include "srd_cells.h"
 #include "srd_solvent.h"
 #include "srd_streaming.h"
+#include "surface_obstacle.h"
 
 #include <memory>
 
@@ -37,6 +38,7 @@ namespace LAMMPS_NS {
 class FixSRDMesh : public Fix {
  public:
   FixSRDMesh(class LAMMPS *, int, char **);
+  ~FixSRDMesh() override;
 
   int setmask() override;
   void init() override;
@@ -50,9 +52,15 @@ class FixSRDMesh : public Fix {
   void pre_force(int) override;
   void min_pre_force(int) override;
   void final_integrate() override;
+  void post_run() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
   double memory_usage() override;
 
  private:
@@ -74,6 +82,9 @@ class FixSRDMesh : public Fix {
   SRDStreaming streaming;
   std::unique_ptr<SRDCells> cells;
   std::unique_ptr<HDMass> mass;    // of the membranes; none without them
+  std::unique_ptr<SurfaceObstacle> obstacle;
+  bool have_obstacle;              // there are membranes, and setup() has been there
+  std::vector<int> side;           // of a membrane, by owned atom
   GhostFreeGroup aside;
 
   bigint num_solvent;
@@ -103,6 +114,9 @@ class FixSRDMesh : public Fix {
   bool is_due() const;
   bool any_strayed();
   void sample();
+  void sample_obstacle();
+  const int *sides();
+  void check_sides();
   double kT() const;
 };
 

@@ -105,6 +105,16 @@ class MassOperator {
   void relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
              VertexField &v);
 
+  // === The limit mask L (VERTEX)
+
+  /// y = L x: the masses' positions or velocities from those of control points. Fills the halo of x.
+  void apply_mask(VertexField &x, VertexField &y);
+  /// L x = b, to the tolerance of the settings
+  void solve_mask(const VertexField &b, VertexField &x);
+  /// The entries of L at an owned vertex and at each of its neighbours.
+  double mask_centre(int i) const { return centre_[i]; }
+  double mask_spoke(int i) const { return spoke_[i]; }
+
   // === What a solve costs and gives
 
   /// Passes over the mesh of the last solve.
@@ -145,8 +155,6 @@ class MassOperator {
   void build_rings(const Topology &topology);
   void build_rows(const Topology &topology, const std::vector<double> &masses,
                   const std::vector<uint64_t> &labels);
-  void apply_mask(VertexField &x, VertexField &y);
-  void solve_mask(const VertexField &b, VertexField &x);
   void solve_direct(const VertexField &p, VertexField &v);
   void conjugate_gradients(const VertexField &p, VertexField &v);
 };

@@ -1,0 +1,276 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_collision_events.h"
+
+#include <algorithm>
+
+using namespace Membrane_NS;
+using Eigen::Vector3d;
+
+/* ---------------------------------------------------------------------- */
+
+void CollisionEvents::begin(const std::vector<SurfaceVertex> &vertices,
+                            const std::vector<SurfaceTriangle> &triangles, double duration,
+                            double vertex_slack, const BoxWalls &walls)
+{
+  vertices_ = &vertices;
+  triangles_ = &triangles;
+  duration_ = duration;
+  slack_ = vertex_slack;
+  walls_ = walls;
+  have_walls_ = walls.any();
+  points_.clear();
+  pairs_.clear();
+  touched_.clear();
+  changes_.assign(vertices.size(), {Vector3d::Zero(), Vector3d::Zero()});
+  is_touched_.assign(vertices.size(), 0);
+  paths_.resize(vertices.size());
+  for (size_t v = 0; v < vertices.size(); ++v) paths_[v] = vertices[v].path;
+  indexed_ = false;
+}
+
+int CollisionEvents::add_point(const MovingPoint &path, double inverse_mass, int64_t tag,
+                               double reach)
+{
+  const int pair = static_cast<int>(pairs_.size());
+  points_.push_back({path, path, inverse_mass, reach, tag, pair, pair, 0, 0, -1});
+  return static_cast<int>(points_.size()) - 1;
+}
+
+void CollisionEvents::add_pair(int triangle, int side)
+{
+  pairs_.push_back({static_cast<int>(points_.size()) - 1, triangle, side, false, {}});
+  ++points_.back().last_pair;
+}
+
+void CollisionEvents::index_pairs()
+{
+  const int n = static_cast<int>(vertices_->size());
+  vertex_pairs_start_.assign(n + 1, 0);
+  for (const Pair &pair : pairs_)
+    for (int v : (*triangles_)[pair.triangle].vertex) ++vertex_pairs_start_[v + 1];
+  for (int v = 0; v < n; ++v) vertex_pairs_start_[v + 1] += vertex_pairs_start_[v];
+  vertex_pairs_.resize(3 * pairs_.size());
+  std::vector<int> next(vertex_pairs_start_.begin(), vertex_pairs_start_.end() - 1);
+  for (size_t p = 0; p < pairs_.size(); ++p)
+    for (int v : (*triangles_)[pairs_[p].triangle].vertex) vertex_pairs_[next[v]++] = p;
+  seen_.assign(pairs_.size() + points_.size(), 0);
+  clock_ = 0;
+  indexed_ = true;
+}
+
+void CollisionEvents::reset()
+{
+  for (int v : touched_) {
+    paths_[v] = (*vertices_)[v].path;
+    changes_[v] = {Vector3d::Zero(), Vector3d::Zero()};
+    is_touched_[v] = 0;
+  }
+  touched_.clear();
+  impulses_.clear();
+  normal_impulse_ = {0.0, 0.0};
+  impulse_.setZero();
+  abandoned_ = 0;
+  std::fill_n(walls_.impulse, 3, 0.0);
+  queue_ = {};
+  for (Point &point : points_) {
+    point.now = point.start;
+    point.bounces = point.version = 0;
+    point.touching = -1;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+CollisionEvents::Outcome CollisionEvents::run(const std::vector<VertexImpulse> &from_outside)
+{
+  if (!indexed_) index_pairs();
+  reset();
+  for (size_t i = 0; i < from_outside.size(); ++i)
+    queue_.push({from_outside[i].time, from_outside[i].tag, -1, static_cast<int>(i), 0});
+  for (int i = 0; i < num_points(); ++i) {
+    for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p) foresee(p, 0.0);
+    schedule(i, 0.0);
+  }
+
+  Outcome outcome = Outcome::DONE;
+  while (!queue_.empty() && outcome == Outcome::DONE) {
+    const Event event = queue_.top();
+    queue_.pop();
+    if (event.point < 0) {
+      const VertexImpulse &impulse = from_outside[event.version];
+      if (!turn_vertices(impulse)) outcome = Outcome::VERTEX_STRAYED;
+      foresee_around(impulse.vertex, event.time);
+    } else if (event.version == points_[event.point].version) {
+      if (event.pair < 0)
+        hit_wall(event, outcome);
+      else
+        collide(event, outcome);
+    }
+  }
+  return outcome;
+}
+
+void CollisionEvents::foresee(int p, double now)
+{
+  Pair &pair = pairs_[p];
+  const Point &point = points_[pair.point];
+  const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
+  std::array<MovingPoint, 3> corners;
+  for (int k = 0; k < 3; ++k) {
+    corners[k] = paths_[triangle.vertex[k]];
+    corners[k].origin += triangle.shift[k];
+  }
+  pair.hits = collision_.find(point.now, corners, pair.side, now, duration_, point.touching == p,
+                              pair.hit);
+}
+
+// the first of what is foreseen for a point counts
+
+void CollisionEvents::schedule(int i, double now)
+{
+  Point &point = points_[i];
+  ++point.version;
+  Event first = {duration_, point.tag, i, point.version, 0};
+  bool any = false;
+  for (int p = point.first_pair; p < point.last_pair; ++p)
+    if (pairs_[p].hits && (!any || pairs_[p].hit.time < first.time)) {
+      first.time = pairs_[p].hit.time;
+      first.pair = p;
+      any = true;
+    }
+  if (have_walls_) {
+    int face;
+    const Vector3d x = point.now.at(now);
+    const double wait =
+        walls_.first_hit(x.data(), point.now.velocity.data(), first.time - now, face);
+    if (face >= 0) {
+      first.time = now + wait;
+      first.pair = -1 - face;
+      any = true;
+    }
+  }
+  if (any) queue_.push(first);
+}
+
+bool CollisionEvents::in_reach(const Point &point) const
+{
+  return (point.now.at(duration_) - point.start.origin).norm() <= point.reach;
+}
+
+void CollisionEvents::hit_wall(const Event &event, Outcome &outcome)
+{
+  Point &point = points_[event.point];
+  Vector3d v = point.now.velocity;
+  walls_.bounce(v.data(), 1.0 / point.inverse_mass, -1 - event.pair);
+  point.now.turn(event.time, v - point.now.velocity);
+  if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
+  for (int p = point.first_pair; p < point.last_pair; ++p) foresee(p, event.time);
+  schedule(event.point, event.time);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CollisionEvents::collide(const Event &event, Outcome &outcome)
+{
+  const int i = event.point, first = event.pair;
+  const double now = event.time;
+  Point &point = points_[i];
+  const Pair &pair = pairs_[first];
+  const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
+  const auto &b = pair.hit.weight;
+
+  std::array<Vector3d, 3> velocities;
+  std::array<double, 3> inverse_masses;
+  double approach = point.now.velocity.dot(pair.hit.normal);
+  for (int k = 0; k < 3; ++k) {
+    velocities[k] = paths_[triangle.vertex[k]].velocity;
+    inverse_masses[k] = (*vertices_)[triangle.vertex[k]].inverse_mass;
+    approach -= b[k] * velocities[k].dot(pair.hit.normal);
+  }
+
+  point.touching = first;
+  ++point.bounces;
+  const bool give_up = point.bounces > 2 * settings_.most_bounces;
+  if (give_up) ++abandoned_;
+
+  // a point that grazes approaches by rounding only, if at all
+
+  if (!give_up && pair.side * approach < 0.0) {
+    const Vector3d impulse =
+        collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
+                          inverse_masses, settings_.no_slip || point.bounces > settings_.most_bounces);
+    point.now.turn(now, impulse * point.inverse_mass);
+    if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
+    impulse_ -= impulse;
+    normal_impulse_[pair.side > 0 ? 0 : 1] += pair.side * impulse.dot(pair.hit.normal);
+
+    VertexImpulse done = {now, point.tag, triangle.vertex, {}};
+    for (int k = 0; k < 3; ++k) done.change[k] = -b[k] * inverse_masses[k] * impulse;
+    impulses_.push_back(done);
+    if (inverse_masses[0] + inverse_masses[1] + inverse_masses[2] > 0.0) {
+      if (!turn_vertices(done)) outcome = Outcome::VERTEX_STRAYED;
+      foresee_around(triangle.vertex, now);
+    }
+  }
+  for (int p = point.first_pair; p < point.last_pair; ++p)
+    if (give_up)
+      pairs_[p].hits = false;
+    else
+      foresee(p, now);
+  schedule(i, now);
+}
+
+// returns whether vertices stay where points were looked for
+
+bool CollisionEvents::turn_vertices(const VertexImpulse &impulse)
+{
+  bool near = true;
+  for (int k = 0; k < 3; ++k) {
+    const int v = impulse.vertex[k];
+    const double inverse_mass = (*vertices_)[v].inverse_mass;
+    if (inverse_mass == 0.0) continue;
+    Change &change = changes_[v];
+    if (!is_touched_[v]) touched_.push_back(v);
+    is_touched_[v] = 1;
+    paths_[v].turn(impulse.time, impulse.change[k]);
+    change.velocity += impulse.change[k];
+    change.position += impulse.change[k] * (duration_ - impulse.time);
+    if (!(change.position.norm() <= slack_)) near = false;
+  }
+  return near;
+}
+
+void CollisionEvents::foresee_around(const std::array<int, 3> &vertices, double now)
+{
+  ++clock_;
+  dirty_.clear();
+  const size_t num_pairs = pairs_.size();
+  for (int v : vertices)
+    for (int j = vertex_pairs_start_[v]; j < vertex_pairs_start_[v + 1]; ++j) {
+      const int p = vertex_pairs_[j], point = pairs_[p].point;
+      if (seen_[p] == clock_) continue;
+      seen_[p] = clock_;
+      if (points_[point].bounces > 2 * settings_.most_bounces) continue;
+      foresee(p, now);
+      if (seen_[num_pairs + point] == clock_) continue;
+      seen_[num_pairs + point] = clock_;
+      dirty_.push_back(point);
+    }
+  for (int point : dirty_) schedule(point, now);
+}

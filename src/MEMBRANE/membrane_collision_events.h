@@ -1,0 +1,184 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_COLLISION_EVENTS_H
+#define LMP_MEMBRANE_COLLISION_EVENTS_H
+
+#include "membrane_box_walls.h"
+#include "membrane_collision.h"
+
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+namespace Membrane_NS {
+
+/// A vertex of the surface: a point mass, or with inverse mass 0 one that nothing deflects.
+struct SurfaceVertex {
+  MovingPoint path;
+  double inverse_mass = 0.0;
+};
+
+/// A triangle of the surface, in the periodic image where a point may meet it.
+struct SurfaceTriangle {
+  std::array<int, 3> vertex;
+  std::array<Eigen::Vector3d, 3> shift;    ///< from the vertices to the corners
+};
+
+/// What a collision did to the surface.
+struct VertexImpulse {
+  double time;
+  int64_t tag;                                ///< of the point
+  std::array<int, 3> vertex;
+  std::array<Eigen::Vector3d, 3> change;      ///< of the vertices' velocities
+
+  bool operator==(const VertexImpulse &b) const
+  {
+    return time == b.time && tag == b.tag && vertex == b.vertex && change == b.change;
+  }
+};
+
+/** All collisions of one time step between points and a surface, in the order of time.
+
+    Between collisions points and vertices move on straight lines. A collision turns the point and
+    the three vertices of the triangle, and what was foreseen for points near these vertices is
+    foreseen anew: the step is the exact motion of the system of point masses with hard contacts,
+    so it keeps energy, momentum and angular momentum to rounding, is reversible, and preserves
+    volume in phase space.
+
+    Fill with begin(), add_point() and add_pair(), then run(), as often as impulses from outside
+    (from points of other ranks) become better known. */
+class CollisionEvents {
+ public:
+  struct Settings {
+    bool no_slip = false;
+    double contact = 1.0e-10;    ///< see TriangleCollision
+    /// A point that bounces this often in one step is sent back where it came from, and after as
+    /// many again left alone.
+    int most_bounces = 5000;
+  };
+
+  CollisionEvents() = default;
+  explicit CollisionEvents(const Settings &settings) : settings_(settings)
+  {
+    collision_.contact = settings.contact;
+  }
+
+  // === Input. Vertices and triangles must outlive the runs.
+
+  /// vertex_slack: how much further than foreseen at the start a vertex may be found in the step.
+  /// Points meet these walls, too.
+  void begin(const std::vector<SurfaceVertex> &vertices,
+             const std::vector<SurfaceTriangle> &triangles, double duration, double vertex_slack,
+             const BoxWalls &walls = {});
+  /// A point and how far from its start it may be found; returns its index.
+  int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
+  /// A triangle that the last point may meet, and the side it is on.
+  void add_pair(int triangle, int side);
+
+  // === The step
+
+  enum class Outcome {
+    DONE,
+    POINT_STRAYED,     ///< a point came further than its reach: pairs are missing
+    VERTEX_STRAYED     ///< a vertex did
+  };
+  Outcome run(const std::vector<VertexImpulse> &from_outside = {});
+
+  // === Results at the end of the step
+
+  int num_points() const { return static_cast<int>(points_.size()); }
+  const MovingPoint &path(int point) const { return points_[point].now; }
+  /// Collisions of a point.
+  int bounces(int point) const { return points_[point].bounces; }
+  /// Points that were left alone because they bounced too often.
+  int abandoned() const { return abandoned_; }
+  /// What the points added here did to the surface, in the order of time.
+  const std::vector<VertexImpulse> &impulses() const { return impulses_; }
+
+  struct Change {
+    Eigen::Vector3d velocity, position;
+  };
+  /// Changes of vertices by all impulses, against straight motion from the start; zero for most.
+  const std::vector<Change> &changes() const { return changes_; }
+  /// The vertices with a change.
+  const std::vector<int> &touched() const { return touched_; }
+  /// Sum over collisions of the impulse normal to the surface, of points on side +1 and -1.
+  const std::array<double, 2> &normal_impulse() const { return normal_impulse_; }
+  /// Momentum that the surface took.
+  const Eigen::Vector3d &impulse() const { return impulse_; }
+  /// Momentum that the walls took.
+  Eigen::Vector3d wall_impulse() const { return Eigen::Vector3d::Map(walls_.impulse); }
+
+ private:
+  struct Point {
+    MovingPoint start, now;
+    double inverse_mass, reach;
+    int64_t tag;
+    int first_pair, last_pair;
+    int bounces, version, touching;    // touching: the pair it hit last
+  };
+  struct Pair {
+    int point, triangle, side;
+    bool hits;
+    TriangleHit hit;
+  };
+  struct Event {
+    double time;
+    int64_t tag;
+    int point, version;    // point -1: impulse number `version` from outside
+    int pair;              // -1 - f: wall f
+    bool operator<(const Event &b) const
+    {
+      return time > b.time || (time == b.time && tag > b.tag);
+    }
+  };
+
+  Settings settings_;
+  TriangleCollision collision_;
+  const std::vector<SurfaceVertex> *vertices_ = nullptr;
+  const std::vector<SurfaceTriangle> *triangles_ = nullptr;
+  double duration_ = 0.0, slack_ = 0.0;
+  std::vector<Point> points_;
+  std::vector<Pair> pairs_;
+  std::vector<int> vertex_pairs_start_, vertex_pairs_;    // which pairs a vertex is part of
+  bool indexed_ = false;
+
+  std::vector<MovingPoint> paths_;    // of vertices, as they are turned
+  std::vector<Change> changes_;
+  std::vector<int> touched_;
+  std::vector<char> is_touched_;
+  std::vector<int> seen_, dirty_;
+  int clock_ = 0;
+  std::priority_queue<Event> queue_;
+  BoxWalls walls_;
+  bool have_walls_ = false;
+  std::vector<VertexImpulse> impulses_;
+  std::array<double, 2> normal_impulse_ = {};
+  Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
+  int abandoned_ = 0;
+
+  void index_pairs();
+  void reset();
+  void foresee(int pair, double now);
+  void schedule(int point, double now);
+  void collide(const Event &event, Outcome &outcome);
+  void hit_wall(const Event &event, Outcome &outcome);
+  bool in_reach(const Point &point) const;
+  bool turn_vertices(const VertexImpulse &impulse);
+  void foresee_around(const std::array<int, 3> &vertices, double now);
+};
+
+}    // namespace Membrane_NS
+
+#endif

@@ -1,0 +1,231 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_collision_grid.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+using namespace Membrane_NS;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
+                        const Matrix3d &lattice, const std::array<bool, 3> &periodic,
+                        const Vector3d &lo, const Vector3d &hi, const Settings &settings)
+{
+  settings_ = settings;
+  lo_ = lo;
+  lattice_ = lattice;
+  built_at_.resize(vertices.size());
+  for (size_t v = 0; v < vertices.size(); ++v) built_at_[v] = vertices[v].path.origin;
+
+  const Vector3d extent = hi - lo;
+  spacing_ = std::max(settings.spacing, std::cbrt(extent.prod() / settings.most_cubes));
+  for (;; spacing_ *= 1.26) {
+    double cubes = 1.0;
+    for (int k = 0; k < 3; ++k) cubes *= std::floor(extent[k] / spacing_) + 1.0;
+    if (cubes > settings.most_cubes) continue;
+    for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(extent[k] / spacing_) + 1;
+    break;
+  }
+  inverse_spacing_ = 1.0 / spacing_;
+
+  const double pad = settings.skin + settings.bulk_step + settings.slack;
+  find_images(surface, vertices, lattice, periodic, hi, pad);
+  begin(surface, vertices, lattice, 0.0, 0.0);
+  fill(pad);
+}
+
+/* ----------------------------------------------------------------------
+   the periodic images of each face that come near the region of the grid
+------------------------------------------------------------------------- */
+
+void SurfaceGrid::find_images(const SurfaceFaces &surface,
+                              const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice,
+                              const std::array<bool, 3> &periodic, const Vector3d &hi, double pad)
+{
+  const Matrix3d to_fraction = lattice.inverse();
+  const Vector3d lo_padded = lo_.array() - pad, hi_padded = hi.array() + pad;
+  Vector3d region_lo = Vector3d::Constant(INFINITY), region_hi = -region_lo;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vector3d x;
+    for (int k = 0; k < 3; ++k) x[k] = corner >> k & 1 ? hi_padded[k] : lo_padded[k];
+    const Vector3d s = to_fraction * x;
+    region_lo = region_lo.cwiseMin(s);
+    region_hi = region_hi.cwiseMax(s);
+  }
+
+  images_.clear();
+  for (size_t f = 0; f < surface.faces.size(); ++f) {
+    std::array<Vector3d, 3> x;
+    Vector3d first = Vector3d::Constant(INFINITY), last = -first;
+    for (int k = 0; k < 3; ++k) {
+      x[k] = vertices[surface.faces[f][k]].path.origin;
+      if (!surface.seams.empty())
+        for (int j = 0; j < 3; ++j) x[k] += surface.seams[f][k][j] * lattice.col(j);
+      const Vector3d s = to_fraction * x[k];
+      first = first.cwiseMin(s);
+      last = last.cwiseMax(s);
+    }
+    std::array<int, 3> from = {0, 0, 0}, to = {0, 0, 0}, i;
+    for (int k = 0; k < 3; ++k)
+      if (periodic[k]) {
+        from[k] = static_cast<int>(std::ceil(region_lo[k] - last[k]));
+        to[k] = static_cast<int>(std::floor(region_hi[k] - first[k]));
+      }
+    for (i[0] = from[0]; i[0] <= to[0]; ++i[0])
+      for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
+        for (i[2] = from[2]; i[2] <= to[2]; ++i[2]) {
+          const Vector3d shift = lattice * Vector3d(i[0], i[1], i[2]);
+          bool near = true;
+          for (int k = 0; k < 3 && near; ++k)
+            near = std::min({x[0][k], x[1][k], x[2][k]}) + shift[k] <= hi_padded[k] &&
+                std::max({x[0][k], x[1][k], x[2][k]}) + shift[k] >= lo_padded[k];
+          if (near) images_.push_back({static_cast<int>(f), i});
+        }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   list in each cube the triangles within `pad`: those whose box and whose plane come so near
+------------------------------------------------------------------------- */
+
+void SurfaceGrid::fill(double pad)
+{
+  const size_t num_cubes = (size_t) size_[0] * size_[1] * size_[2];
+  marked_.assign(num_cubes, 0);
+  start_.assign(num_cubes + 1, 0);
+  std::vector<std::pair<int, int>> entries;    // cube, triangle
+  for (size_t t = 0; t < planes_.size(); ++t) {
+    const Plane &plane = planes_[t];
+    std::array<int, 3> from, to, i;
+    for (int k = 0; k < 3; ++k) {
+      const double a = (plane.lo[k] - pad - lo_[k]) * inverse_spacing_,
+                   b = (plane.hi[k] + pad - lo_[k]) * inverse_spacing_;
+      from[k] = std::max(0, static_cast<int>(std::floor(a)));
+      to[k] = std::min(size_[k] - 1, static_cast<int>(std::floor(b)));
+    }
+    const double within = pad + 0.5 * spacing_ * plane.normal.lpNorm<1>();
+    for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
+      for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
+        for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
+          const Vector3d centre = lo_ + spacing_ * Vector3d(i[0] + 0.5, i[1] + 0.5, i[2] + 0.5);
+          if (std::fabs(plane.normal.dot(centre) - plane.offset) > within) continue;
+          const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
+          entries.emplace_back(cube, t);
+          ++start_[cube + 1];
+          marked_[cube] = 1;
+        }
+  }
+  for (size_t c = 0; c < num_cubes; ++c) start_[c + 1] += start_[c];
+  list_.resize(entries.size());
+  std::vector<int> next(start_.begin(), start_.end() - 1);
+  for (auto [cube, triangle] : entries) list_[next[cube]++] = triangle;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice,
+                         double duration) const
+{
+  if (!is_built() || vertices.size() != built_at_.size() || lattice != lattice_) return false;
+  const double most = settings_.skin * settings_.skin;
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    const Vector3d moved = vertices[v].path.origin - built_at_[v];
+    if (!(moved.squaredNorm() <= most &&
+          (moved + duration * vertices[v].path.velocity).squaredNorm() <= most))
+      return false;
+  }
+  return true;
+}
+
+void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
+                        const Matrix3d &lattice, double duration, double slack)
+{
+  triangles_.resize(images_.size());
+  planes_.resize(images_.size());
+  for (size_t t = 0; t < images_.size(); ++t) {
+    const Image &image = images_[t];
+    SurfaceTriangle &triangle = triangles_[t];
+    Plane &plane = planes_[t];
+    std::array<Vector3d, 3> x;
+    double fastest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      std::array<int, 3> n = image.lattice;
+      if (!surface.seams.empty())
+        for (int j = 0; j < 3; ++j) n[j] += surface.seams[image.face][k][j];
+      const int v = triangle.vertex[k] = surface.faces[image.face][k];
+      triangle.shift[k] = lattice * Vector3d(n[0], n[1], n[2]);
+      x[k] = vertices[v].path.origin + triangle.shift[k];
+      fastest = std::max(fastest, vertices[v].path.velocity.squaredNorm());
+    }
+    plane.normal = (x[1] - x[0]).cross(x[2] - x[0]);
+    const double size = plane.normal.norm();
+    if (size > 0.0) plane.normal /= size;
+    plane.offset = plane.normal.dot(x[0]);
+    plane.lo = x[0].cwiseMin(x[1]).cwiseMin(x[2]);
+    plane.hi = x[0].cwiseMax(x[1]).cwiseMax(x[2]);
+    plane.moves = duration * std::sqrt(fastest) + slack;
+  }
+  seen_.assign(images_.size(), 0);
+  clock_ = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
+{
+  found.clear();
+  ++clock_;
+  std::array<int, 3> from, to, i;
+  const double beyond = std::max(0.0, reach - settings_.bulk_step);
+  for (int k = 0; k < 3; ++k) {
+    const double a = (x[k] - lo_[k] - beyond) * inverse_spacing_,
+                 b = (x[k] - lo_[k] + beyond) * inverse_spacing_;
+    if (!(a >= 0.0 && b < size_[k])) return false;
+    from[k] = static_cast<int>(a);
+    to[k] = static_cast<int>(b);
+  }
+  for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
+    for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
+      for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
+        const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
+        for (int j = start_[cube]; j < start_[cube + 1]; ++j) {
+          const int t = list_[j];
+          const Plane &plane = planes_[t];
+          const double within = reach + plane.moves;
+          if (seen_[t] == clock_ || std::fabs(plane.normal.dot(x) - plane.offset) > within)
+            continue;
+          seen_[t] = clock_;
+          if (((x - plane.lo).array() < -within).any() || ((x - plane.hi).array() > within).any())
+            continue;
+          found.push_back(t);
+        }
+      }
+  return true;
+}
+
+double SurfaceGrid::memory_usage() const
+{
+  return marked_.capacity() + sizeof(int) * (start_.capacity() + list_.capacity()) +
+      sizeof(SurfaceTriangle) * triangles_.capacity() + sizeof(Plane) * planes_.capacity() +
+      sizeof(Image) * images_.capacity() + sizeof(Vector3d) * built_at_.capacity();
+}

@@ -1,0 +1,384 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "surface_motion.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_hd_base.h"
+#include "group.h"
+#include "modify.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Membrane_NS::CollisionEvents;
+using Membrane_NS::MassKind;
+using Membrane_NS::SurfaceVertex;
+using Membrane_NS::Vector4;
+
+// relative residual of L x = b: far below the errors that conservation is tested to
+static constexpr double TOLERANCE = 1.0e-14;
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, std::string user) :
+    Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
+    mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1)
+{
+  mass.settings.kind = MassKind::VERTEX;
+  mass.settings.tolerance = TOLERANCE;
+}
+
+void SurfaceMotion::init()
+{
+  mass.init();
+  shared_epoch = -1;
+  check_movers();
+  find_faces();
+  find_masses();
+}
+
+/* ----------------------------------------------------------------------
+   impulses act on momenta of point masses, or on something that never yields
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::check_movers()
+{
+  integrators.clear();
+  for (auto &fix : modify->get_fix_list()) {
+    auto *integrator = dynamic_cast<FixHDBase *>(fix);
+    if (!integrator && !fix->time_integrate) continue;
+    int here = 0, any;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) here = 1;
+    MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
+    if (!any) continue;
+    if (!integrator) {
+      if (strcmp(fix->style, "move") == 0) continue;
+      error->all(FLERR,
+                 "{}: the membranes of group {} are moved by fix {} ({}), which impulses of solvent "
+                 "cannot act on: use fix hd/nve or hd/langevin",
+                 user, group->names[igroup], fix->id, fix->style);
+    }
+    if (integrator->drag_coefficient() > 0.0)
+      error->all(FLERR,
+                 "{}: fix {} ({}) knows no momenta that solvent could change: use fix hd/nve or "
+                 "hd/langevin",
+                 user, fix->id, fix->style);
+    if (integrator->mass_settings().kind != MassKind::VERTEX)
+      error->all(FLERR, "{} needs point masses on the surface: use mass vertex in fix {} ({})",
+                 user, fix->id, fix->style);
+    integrators.push_back(integrator);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceMotion::find_faces()
+{
+  const auto &topology = mesh().topology();
+  const int n = topology.num_vertices();
+  std::vector<int> here(topology.num_components(), 0), any(topology.num_components());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh().vertex(atom->tag[i]);
+    if (v >= 0 && atom->mask[i] & groupbit) here[topology.component(v)] = 1;
+  }
+  MPI_Allreduce(here.data(), any.data(), topology.num_components(), MPI_INT, MPI_MAX, world);
+
+  group_components.clear();
+  for (int c = 0; c < topology.num_components(); ++c)
+    if (any[c]) group_components.push_back(c);
+  faces = {};
+  face_component.clear();
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    const int c = topology.component(topology.face(f)[0]);
+    if (!any[c]) continue;
+    faces.faces.push_back(topology.face(f));
+    face_component.push_back(c);
+  }
+  vertices.assign(n, {{Vector3d::Zero(), Vector3d::Zero()}, 0.0});
+  owner_of.assign(n, -1);
+}
+
+/* ----------------------------------------------------------------------
+   masses of all vertices, and which of them are free to move
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::find_masses()
+{
+  const int n = mesh().topology().num_vertices();
+  std::vector<double> here(2 * n, 0.0), sum(2 * n);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh().vertex(atom->tag[i]);
+    if (v < 0 || !(atom->mask[i] & groupbit)) continue;
+    here[v] = atom->rmass[i];
+    for (FixHDBase *integrator : integrators)
+      if (atom->mask[i] & integrator->groupbit) here[n + v] = 1.0;
+  }
+  MPI_Allreduce(here.data(), sum.data(), 2 * n, MPI_DOUBLE, MPI_SUM, world);
+  masses.assign(sum.begin(), sum.begin() + n);
+  any_fixed = false;
+  for (int v = 0; v < n; ++v) {
+    const bool free = sum[n + v] > 0.0;
+    vertices[v].inverse_mass = free ? 1.0 / masses[v] : 0.0;
+    any_fixed = any_fixed || (masses[v] > 0.0 && !free);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   which images of atoms belong together does not change while LAMMPS counts image flags
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::setup()
+{
+  mass.refresh();
+  const auto &topology = mesh().topology();
+  const int n = topology.num_vertices();
+  const auto whole = mesh().triangle_mesh();
+  const Matrix3d to_fraction = lattice().inverse();
+  auto in_lattice = [&](const Vector3d &d) {
+    const Vector3d s = to_fraction * d;
+    return std::array<int, 3>{(int) std::lround(s[0]), (int) std::lround(s[1]),
+                              (int) std::lround(s[2])};
+  };
+
+  std::vector<int> here(3 * n, 0), sum(3 * n);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh().vertex(atom->tag[i]);
+    if (v < 0) continue;
+    Vector3d x;
+    domain->unmap(atom->x[i], atom->image[i], x.data());
+    const auto d = in_lattice(whole.points[v] - x);
+    std::copy(d.begin(), d.end(), &here[3 * v]);
+  }
+  MPI_Allreduce(here.data(), sum.data(), 3 * n, MPI_INT, MPI_SUM, world);
+  offset.resize(n);
+  ring_seam.assign(n, {0, 0, 0});
+  for (int v = 0; v < n; ++v) {
+    std::copy_n(&sum[3 * v], 3, offset[v].begin());
+    for (int u : topology.ring(v)) {
+      const auto d = in_lattice(whole.points[v] + whole.edge(v, u) - whole.points[u]);
+      for (int k = 0; k < 3; ++k) ring_seam[v][k] += d[k];
+    }
+  }
+
+  faces.seams.clear();
+  double length = 0.0;
+  for (const auto &face : faces.faces) {
+    std::array<std::array<int, 3>, 3> seam;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d there = whole.points[face[0]] + whole.edge(face[0], face[k]);
+      seam[k] = in_lattice(there - whole.points[face[k]]);
+      length += whole.edge(face[k], face[(k + 1) % 3]).norm();
+    }
+    faces.seams.push_back(seam);
+  }
+  mean_edge = faces.faces.empty() ? 0.0 : length / (3.0 * faces.faces.size());
+  shared_epoch = -1;
+  remember();
+}
+
+Matrix3d SurfaceMotion::lattice() const
+{
+  const double *h = domain->h;
+  Matrix3d columns;
+  columns << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+  return columns;
+}
+
+std::array<bool, 3> SurfaceMotion::periodic() const
+{
+  return {domain->periodicity[0] != 0, domain->periodicity[1] != 0, domain->periodicity[2] != 0};
+}
+
+/* ----------------------------------------------------------------------
+   after reneighbouring: who owns what
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::refresh()
+{
+  mass.refresh();
+  if (shared_epoch == epoch()) return;
+  shared_epoch = epoch();
+
+  MeshPart &part = mass.part();
+  atom_vertex.assign(atom->nlocal, -1);
+  for (int i = 0; i < part.owned; ++i) atom_vertex[part.atom_of(i)] = i;
+
+  int owned = part.owned;
+  counts.resize(comm->nprocs);
+  starts.assign(comm->nprocs + 1, 0);
+  MPI_Allgather(&owned, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < comm->nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
+  listed.resize(starts.back());
+  MPI_Allgatherv(part.vertices.data(), owned, MPI_INT, listed.data(), counts.data(), starts.data(),
+                 MPI_INT, world);
+  for (int p = 0; p < comm->nprocs; ++p)
+    for (int i = starts[p]; i < starts[p + 1]; ++i) owner_of[listed[i]] = p;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceMotion::remember()
+{
+  if (!any_fixed) return;
+  mass.refresh();
+  mass.part().load(atom->x, remembered);
+}
+
+// r: limit positions, unwrapped
+
+void SurfaceMotion::load_positions()
+{
+  MeshPart &part = mass.part();
+  q.resize(part.size());
+  r.resize(part.size());
+  const Matrix3d box = lattice();
+  for (int i = 0; i < part.owned; ++i) {
+    const int v = part.vertices[i], j = part.atom_of(i);
+    Vector3d x;
+    domain->unmap(atom->x[j], atom->image[j], x.data());
+    x += box * Vector3d(offset[v][0], offset[v][1], offset[v][2]);
+    q[i] = {{x[0], x[1], x[2], 0.0}};
+  }
+  mass.matrix().apply_mask(q, r);
+  for (int i = 0; i < part.owned; ++i) {
+    const auto &seam = ring_seam[part.vertices[i]];
+    if (!seam[0] && !seam[1] && !seam[2]) continue;
+    const Vector3d shift = box * Vector3d(seam[0], seam[1], seam[2]);
+    for (int k = 0; k < 3; ++k) r[i].c[k] += mass.matrix().mask_spoke(i) * shift[k];
+  }
+}
+
+// moved: what integrators did in this step; of others, the difference to the last
+
+void SurfaceMotion::load_displacements()
+{
+  MeshPart &part = mass.part();
+  moved.assign(part.size(), Vector4{});
+  const Matrix3d box = lattice(), to_fraction = box.inverse();
+  if (any_fixed)
+    for (int i = 0; i < part.owned; ++i) {
+      if (vertices[part.vertices[i]].inverse_mass > 0.0) continue;
+      const Vector3d d = Vector3d::Map(atom->x[part.atom_of(i)]) - Vector3d::Map(remembered[i].c);
+      Vector3d images = to_fraction * d;    // where another fix has wrapped it
+      for (int k = 0; k < 3; ++k) images[k] = domain->periodicity[k] ? std::round(images[k]) : 0.0;
+      Vector3d::Map(moved[i].c) = d - box * images;
+    }
+  for (FixHDBase *integrator : integrators) {
+    const MeshPart &theirs = integrator->part();
+    for (int i = 0; i < theirs.owned; ++i) {
+      const int here = atom_vertex[theirs.atom_of(i)];
+      if (here >= 0) moved[here] = integrator->displacement()[i];
+    }
+  }
+}
+
+// all = the ranks' mine, `width` numbers a vertex, in the order of `listed`
+
+void SurfaceMotion::share(int width)
+{
+  all.resize(width * listed.size());
+  if (comm->nprocs == 1) {
+    all = mine;
+    return;
+  }
+  std::vector<int> n(comm->nprocs), first(comm->nprocs);
+  for (int p = 0; p < comm->nprocs; ++p) {
+    n[p] = width * counts[p];
+    first[p] = width * starts[p];
+  }
+  MPI_Allgatherv(mine.data(), n[comm->me], MPI_DOUBLE, all.data(), n.data(), first.data(),
+                 MPI_DOUBLE, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const std::vector<SurfaceVertex> &SurfaceMotion::paths(double dt)
+{
+  refresh();
+  load_positions();
+  load_displacements();
+  MeshPart &part = mass.part();
+  w.resize(part.size());
+  mass.matrix().apply_mask(moved, w);
+  mine.resize(6 * part.owned);
+  for (int i = 0; i < part.owned; ++i)
+    for (int k = 0; k < 3; ++k) {
+      mine[6 * i + k] = r[i].c[k] - w[i].c[k];
+      mine[6 * i + 3 + k] = w[i].c[k] / dt;
+    }
+  share(6);
+  for (size_t i = 0; i < listed.size(); ++i)
+    vertices[listed[i]].path = {Vector3d::Map(&all[6 * i]), Vector3d::Map(&all[6 * i + 3])};
+  return vertices;
+}
+
+const std::vector<SurfaceVertex> &SurfaceMotion::places()
+{
+  refresh();
+  load_positions();
+  MeshPart &part = mass.part();
+  mine.resize(3 * part.owned);
+  for (int i = 0; i < part.owned; ++i)
+    for (int k = 0; k < 3; ++k) mine[3 * i + k] = r[i].c[k];
+  share(3);
+  for (size_t i = 0; i < listed.size(); ++i)
+    vertices[listed[i]].path = {Vector3d::Map(&all[3 * i]), Vector3d::Zero()};
+  return vertices;
+}
+
+/* ----------------------------------------------------------------------
+   the control points' velocities and positions follow from those of the masses by L^-1
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::apply(const std::vector<CollisionEvents::Change> &changes)
+{
+  MeshPart &part = mass.part();
+  for (int quantity = 0; quantity < 2; ++quantity) {
+    q.assign(part.size(), Vector4{});
+    r.resize(part.size());
+    for (int i = 0; i < part.owned; ++i) {
+      const auto &change = changes[part.vertices[i]];
+      const Vector3d &d = quantity == 0 ? change.velocity : change.position;
+      q[i] = {{d[0], d[1], d[2], 0.0}};
+    }
+    mass.matrix().solve_mask(q, r);
+    double **target = quantity == 0 ? atom->v : atom->x;
+    for (int i = 0; i < part.owned; ++i) {
+      if (vertices[part.vertices[i]].inverse_mass == 0.0) continue;
+      for (int k = 0; k < 3; ++k) target[part.atom_of(i)][k] += r[i].c[k];
+    }
+  }
+}
+
+double SurfaceMotion::memory_usage() const
+{
+  return mass.memory_usage() + sizeof(SurfaceVertex) * vertices.capacity() +
+      sizeof(double) * (mine.capacity() + all.capacity() + masses.capacity()) +
+      sizeof(int) * (listed.capacity() + owner_of.capacity() + atom_vertex.capacity() +
+                     6 * offset.capacity()) +
+      faces.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int)) +
+      sizeof(Vector4) * (q.capacity() + moved.capacity() + r.capacity() + w.capacity());
+}

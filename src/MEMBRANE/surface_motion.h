@@ -1,0 +1,120 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SURFACE_MOTION_H
+#define LMP_SURFACE_MOTION_H
+
+#include "distributed_mesh.h"
+#include "hd_mass.h"
+#include "membrane_collision_events.h"
+#include "membrane_collision_grid.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/** The limit positions of the control points of a group of membranes as moving point masses: where
+    they are and go in a step, for all ranks, and what impulses on them do to the control points.
+
+    Vertices are those of the whole mesh; positions are unwrapped and, surface by surface, in one
+    piece, as DistributedMesh::unwrapped() has them. Vertices of other groups stay unset. */
+class SurfaceMotion : protected Pointers {
+ public:
+  /// `user` is named in errors.
+  SurfaceMotion(class LAMMPS *, int igroup, std::string user);
+
+  // === Life cycle
+
+  /// Collective; call from init(). Stops if membranes of the group are moved in a way that impulses
+  /// cannot act on.
+  void init();
+  /// Collective; call from setup(), when the mesh is unwrapped.
+  void setup();
+  /// Collective; call when all positions of a step are final, before the next step moves them.
+  void remember();
+
+  // === The surface
+
+  const Membrane_NS::SurfaceFaces &surface() const { return faces; }
+  /// The component of the mesh that a face of surface() is part of; components without faces here
+  /// belong to other groups.
+  int component(int face) const { return face_component[face]; }
+  /// Components of the group.
+  const std::vector<int> &components() const { return group_components; }
+  DistributedMesh &mesh() { return mass.mesh(); }
+  /// Mean length of an edge at setup().
+  double edge() const { return mean_edge; }
+  /// The box vectors as columns.
+  Eigen::Matrix3d lattice() const;
+  std::array<bool, 3> periodic() const;
+
+  // === A step
+
+  /// Collective; after control points have moved: paths of all vertices over the last dt.
+  const std::vector<Membrane_NS::SurfaceVertex> &paths(double dt);
+  /// Collective: vertices at rest where they are now.
+  const std::vector<Membrane_NS::SurfaceVertex> &places();
+  /// What the last of these two returned.
+  const std::vector<Membrane_NS::SurfaceVertex> &current() const { return vertices; }
+  /// The rank that owns a vertex, as of the last paths() or places().
+  int owner(int vertex) const { return owner_of[vertex]; }
+  /// Changes when vertices have new owners.
+  bigint epoch() { return mass.mesh().epoch(); }
+  /// Collective: changes of velocity and position of the owned vertices, by vertex, reach the
+  /// control points.
+  void apply(const std::vector<Membrane_NS::CollisionEvents::Change> &changes);
+
+  /// Owned vertices in the order of their atoms.
+  MeshPart &part() { return mass.part(); }
+  Membrane_NS::MassOperator &matrix() { return mass.matrix(); }
+  double mass_of(int vertex) const { return masses[vertex]; }
+  bool is_free(int vertex) const { return vertices[vertex].inverse_mass > 0.0; }
+  double memory_usage() const;
+
+ private:
+  std::string user;
+  int igroup, groupbit;
+  HDMass mass;
+  std::vector<class FixHDBase *> integrators;
+  Membrane_NS::SurfaceFaces faces;
+  std::vector<int> face_component, group_components;
+  std::vector<Membrane_NS::SurfaceVertex> vertices;
+  std::vector<double> masses;
+  std::vector<int> owner_of;
+  double mean_edge;
+
+  std::vector<std::array<int, 3>> offset;    // in box vectors, from unmapped atoms to one piece
+  std::vector<std::array<int, 3>> ring_seam;    // sum over a vertex's ring of box vectors to its images
+  bool any_fixed;    // some vertices do not yield to impulses
+  Membrane_NS::VertexField remembered;    // if so: x of the last step
+  bigint shared_epoch;
+  std::vector<int> atom_vertex;    // place in part() of local atoms, or -1
+  std::vector<int> counts, starts, listed;    // all ranks' owned vertices
+  std::vector<double> mine, all;
+  Membrane_NS::VertexField q, moved, r, w;
+
+  void check_movers();
+  void find_faces();
+  void find_masses();
+  void refresh();
+  void load_positions();
+  void load_displacements();
+  void share(int width);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

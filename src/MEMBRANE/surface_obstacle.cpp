@@ -1,0 +1,391 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "surface_obstacle.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "membrane_random.h"
+#include "update.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+using Membrane_NS::BoxWalls;
+using Membrane_NS::CollisionEvents;
+using Membrane_NS::MovingPoint;
+using Membrane_NS::SurfaceGrid;
+using Membrane_NS::VertexImpulse;
+
+// all of these in edges of the mesh
+
+// see TriangleCollision: far above rounding, also of coordinates in a large box
+static constexpr double CONTACT = 1.0e-10;
+// the grid is built anew when vertices have moved so far
+static constexpr double SKIN = 0.15;
+// vertices may be deflected so far in one step, points so far beyond where their speed takes them;
+// looked for in the first attempt, and at most
+static constexpr double FIRST_SLACK = 0.02, MOST_SLACK = 0.15;
+static constexpr double SPACING = 0.5;
+
+// solvent faster than this, in root mean squares, gets a closer look everywhere
+static constexpr double FAST = 2.5;
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
+    Pointers(lmp), motion(lmp, settings.membranes, settings.user),
+    regions(lmp, motion, settings.user), tally{}, settings(settings), built_epoch(-1),
+    vertex_slack(0.0), point_slack(0.0), vertices(nullptr)
+{
+}
+
+void SurfaceObstacle::init()
+{
+  motion.init();
+}
+
+void SurfaceObstacle::setup(const SRDSolvent &solvent)
+{
+  motion.setup();
+  regions.assign(solvent);
+  CollisionEvents::Settings rule;
+  rule.no_slip = settings.no_slip;
+  rule.contact = CONTACT * motion.edge();
+  if (settings.most_bounces > 0) rule.most_bounces = settings.most_bounces;
+  events = CollisionEvents(rule);
+  grid = {};
+  vertex_slack = point_slack = FIRST_SLACK * motion.edge();
+}
+
+/* ----------------------------------------------------------------------
+   the exact motion of solvent and point masses over dt, see CollisionEvents
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+{
+  vertices = &motion.paths(dt);
+  prepare_grid(solvent, dt);
+  stream_bulk(solvent, walls, dt);
+
+  int beyond = !collect(solvent, walls, dt), any;
+  MPI_Allreduce(&beyond, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any) {
+    build_grid(solvent, dt);
+    collect(solvent, walls, dt);
+  }
+  from_outside.clear();
+  told.clear();
+  run(solvent, walls, dt);
+  if (comm->nprocs > 1)
+    while (exchange()) run(solvent, walls, dt);
+  finish(solvent, walls, dt);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceObstacle::prepare_grid(const SRDSolvent &solvent, double dt)
+{
+  if (!grid.serves(*vertices, motion.lattice(), dt) ||
+      (comm->nprocs > 1 && built_epoch != motion.epoch()))
+    build_grid(solvent, dt);
+}
+
+// where this rank's solvent is, and may come to be before the grid is built anew
+
+void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
+{
+  Vector3d lo = Vector3d::Map(domain->sublo), hi = Vector3d::Map(domain->subhi);
+  if (domain->triclinic) domain->bbox(domain->sublo_lamda, domain->subhi_lamda, lo.data(), hi.data());
+  double square = 0.0;
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!solvent.has(i)) continue;
+    const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
+    const Vector3d room = Vector3d::Constant(dt * v.norm());
+    lo = lo.cwiseMin(x - room);
+    hi = hi.cwiseMax(x + room);
+    square += v.squaredNorm();
+  }
+  const double edge = motion.edge();
+  SurfaceGrid::Settings s;
+  s.skin = SKIN * edge;
+  s.slack = MOST_SLACK * edge;
+  s.bulk_step = FAST * dt * std::sqrt(square / std::max(1, solvent.count()));
+  s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
+  s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
+  const Vector3d margin = Vector3d::Constant(settings.stray + edge);
+  grid.build(motion.surface(), *vertices, motion.lattice(), motion.periodic(), lo - margin,
+             hi + margin, s);
+  built_epoch = motion.epoch();
+  if (comm->nprocs > 1) find_shared();
+}
+
+/* ----------------------------------------------------------------------
+   what happens to a vertex concerns other ranks unless only its owner's solvent comes near it
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::find_shared()
+{
+  const size_t n = vertices->size();
+  std::vector<int> users(n, 0), sum(n);
+  for (const auto &image : grid.images())
+    for (int v : motion.surface().faces[image.face]) users[v] = motion.owner(v) == comm->me ? 1 : 2;
+  MPI_Allreduce(users.data(), sum.data(), n, MPI_INT, MPI_SUM, world);
+  shared.resize(n);
+  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1;
+}
+
+/* ----------------------------------------------------------------------
+   solvent far from membranes just moves; the rest is noted
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::stream_bulk(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+{
+  near.clear();
+  double *const *x = atom->x, *const *v = atom->v;
+  const bool dense = solvent.dense(), have_walls = walls.any();
+  const double most = grid.bulk_step_squared() / (dt * dt);
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!dense && !solvent.has(i)) continue;
+    double *xi = x[i], *vi = v[i];
+    const int cube = grid.cube(xi);
+    if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) ||
+        !(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2] < most))
+      near.push_back(i);
+    else if (have_walls)
+      walls.stream(xi, vi, solvent.mass()[i], dt);
+    else
+      for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   which of the noted atoms may meet which triangles; false if some are beyond the grid
+------------------------------------------------------------------------- */
+
+bool SurfaceObstacle::collect(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
+{
+  grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
+  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
+  entered.clear();
+  for (int i : near) {
+    const MovingPoint path = {Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i])};
+    const double reach = dt * path.velocity.norm() + point_slack;
+    if (!grid.find(path.origin, reach, found)) return false;
+    if (found.empty()) continue;
+    entered.push_back(i);
+    events.add_point(path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
+    for (int t : found) {
+      const auto &image = grid.images()[t];
+      events.add_pair(t, regions.side(regions.region[i], atom->image[i],
+                                      motion.component(image.face), image.lattice));
+    }
+  }
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   this rank's collisions, for impulses from others as far as they are known
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
+{
+  while (true) {
+    const auto outcome = events.run(from_outside);
+    if (outcome == CollisionEvents::Outcome::DONE) return;
+    if (outcome == CollisionEvents::Outcome::POINT_STRAYED)
+      point_slack *= 2.0;
+    else {
+      if (vertex_slack >= MOST_SLACK * motion.edge())
+        error->one(FLERR,
+                   "{}: solvent deflects a vertex by more than {} of an edge in one step: use a "
+                   "shorter timestep or heavier control points",
+                   settings.user, MOST_SLACK);
+      vertex_slack = std::min(2.0 * vertex_slack, MOST_SLACK * motion.edge());
+    }
+    if (!collect(solvent, walls, dt))
+      error->one(FLERR, "{}: solvent moves further than {:.6g} in one step: use a shorter timestep",
+                 settings.user, settings.stray);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Each rank works out its atoms' collisions for given impulses of others. Those that come first in
+   time are right at once, and what they cause is right after one exchange more, so impulses are
+   told to all until none changes: two or three times, since few cross from rank to rank in a step.
+------------------------------------------------------------------------- */
+
+bool SurfaceObstacle::exchange()
+{
+  std::vector<VertexImpulse> mine;
+  for (const VertexImpulse &impulse : events.impulses())
+    for (int v : impulse.vertex)
+      if (shared[v] && motion.is_free(v)) {
+        mine.push_back(impulse);
+        break;
+      }
+
+  const int nprocs = comm->nprocs;
+  int bytes = static_cast<int>(mine.size() * sizeof(VertexImpulse));
+  std::vector<int> counts(nprocs), starts(nprocs + 1, 0);
+  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
+  std::vector<VertexImpulse> all(starts.back() / sizeof(VertexImpulse));
+  if (!all.empty())
+    MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE,
+                   world);
+  if (all == told) return false;
+
+  const auto first = all.begin() + starts[comm->me] / sizeof(VertexImpulse);
+  from_outside.assign(all.begin(), first);
+  from_outside.insert(from_outside.end(), first + mine.size(), all.end());
+  told = std::move(all);
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+{
+  for (size_t n = 0; n < entered.size(); ++n) {
+    const int i = entered[n];
+    const MovingPoint &path = events.path(n);
+    Vector3d::Map(atom->x[i]) = path.at(dt);
+    Vector3d::Map(atom->v[i]) = path.velocity;
+  }
+  size_t next = 0;
+  for (int i : near) {
+    if (next < entered.size() && entered[next] == i)
+      ++next;
+    else
+      walls.stream(atom->x[i], atom->v[i], solvent.mass()[i], dt);
+  }
+  Vector3d::Map(walls.impulse) += events.wall_impulse();
+
+  tally[COLLISIONS] += events.impulses().size();
+  tally[ABANDONED] += events.abandoned();
+  tally[OUTER] += events.normal_impulse()[0];
+  tally[INNER] += events.normal_impulse()[1];
+  for (int k = 0; k < 3; ++k) tally[HANDED + k] += events.impulse()[k];
+
+  int mine = !events.touched().empty(), any;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any) motion.apply(events.changes());
+}
+
+/* ----------------------------------------------------------------------
+   solvent on the wrong side
+------------------------------------------------------------------------- */
+
+bigint SurfaceObstacle::check(const SRDSolvent &solvent)
+{
+  bigint count[2] = {0, 0}, all[2];
+  for (const auto &crossing : regions.find_crossings(solvent)) {
+    Vector3d normal;
+    const Vector3d nearest = nearest_point(crossing, normal);
+    const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
+    if ((x - nearest).norm() <= 4.0 * CONTACT * motion.edge()) continue;    // on it, by rounding
+    ++count[0];
+    count[1] += rescue(crossing, nearest, normal);
+  }
+  MPI_Allreduce(count, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  tally[CROSSINGS] += count[0];
+  tally[RESCUES] += count[1];
+  return all[0];
+}
+
+// the point of a surface nearest to an atom, in the image nearest to it, and the normal there
+
+Vector3d SurfaceObstacle::nearest_point(const SurfaceRegions::Crossing &crossing, Vector3d &normal)
+{
+  const auto &surface = motion.surface();
+  const auto &places = motion.current();
+  const Eigen::Matrix3d box = motion.lattice(), to_fraction = box.inverse();
+  const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
+  Vector3d nearest = x;
+  double least = INFINITY;
+  for (size_t f = 0; f < surface.faces.size(); ++f) {
+    if (motion.component(f) != crossing.component) continue;
+    std::array<Vector3d, 3> corner;
+    for (int k = 0; k < 3; ++k) {
+      const auto &seam = surface.seams[f][k];
+      corner[k] = places[surface.faces[f][k]].path.origin + box * Vector3d(seam[0], seam[1], seam[2]);
+    }
+    Vector3d images = to_fraction * (x - corner[0]);
+    for (int k = 0; k < 3; ++k) images[k] = domain->periodicity[k] ? std::round(images[k]) : 0.0;
+    for (Vector3d &c : corner) c += box * images;
+    const auto b = Membrane_NS::nearest_on_triangle(x, corner[0], corner[1], corner[2]);
+    const Vector3d p = b[0] * corner[0] + b[1] * corner[1] + b[2] * corner[2];
+    if ((p - x).squaredNorm() >= least) continue;
+    least = (p - x).squaredNorm();
+    nearest = p;
+    normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  }
+  return nearest;
+}
+
+/* ----------------------------------------------------------------------
+   put an atom back on its own side, close to where it crossed, heading away from the surface; or if
+   that cannot be, anywhere in its region
+------------------------------------------------------------------------- */
+
+bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vector3d &nearest,
+                             const Vector3d &normal)
+{
+  const int i = crossing.atom, region = regions.region[i];
+  Vector3d x;
+  for (double distance = 1.0e-6; distance < 0.5; distance *= 10.0)
+    for (double sign : {1.0, -1.0}) {
+      x = nearest + sign * distance * motion.edge() * normal;
+      if (!regions.belongs(x.data(), atom->image[i], region)) continue;
+      Vector3d::Map(atom->x[i]) = x;
+      const double speed = sign * Vector3d::Map(atom->v[i]).dot(normal);
+      if (speed < 0.0) Vector3d::Map(atom->v[i]) -= 2.0 * sign * speed * normal;
+      return true;
+    }
+
+  constexpr int TRIALS = 1000;
+  const Membrane_NS::CounterRandom random(atom->tag[i], update->ntimestep);
+  for (int trial = 0; trial < TRIALS; ++trial) {
+    const auto a = random.uniforms(trial, 0), b = random.uniforms(trial, 1);
+    const double s[3] = {a[0], a[1], b[0]};
+    if (domain->triclinic) {
+      double lamda[3];
+      for (int k = 0; k < 3; ++k)
+        lamda[k] = domain->sublo_lamda[k] + s[k] * (domain->subhi_lamda[k] - domain->sublo_lamda[k]);
+      domain->lamda2x(lamda, x.data());
+    } else
+      for (int k = 0; k < 3; ++k)
+        x[k] = domain->sublo[k] + s[k] * (domain->subhi[k] - domain->sublo[k]);
+    if (!regions.belongs(x.data(), atom->image[i], region)) continue;
+    Vector3d::Map(atom->x[i]) = x;
+    return true;
+  }
+  return false;
+}
+
+double SurfaceObstacle::memory_usage() const
+{
+  return motion.memory_usage() + regions.memory_usage() + grid.memory_usage();
+}

@@ -1,0 +1,98 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SURFACE_OBSTACLE_H
+#define LMP_SURFACE_OBSTACLE_H
+
+#include "membrane_box_walls.h"
+#include "membrane_collision_events.h"
+#include "membrane_collision_grid.h"
+#include "srd_solvent.h"
+#include "surface_motion.h"
+#include "surface_regions.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/** Membranes in the way of solvent: streams solvent past the moving limit surface, with which it
+    exchanges impulses, and keeps it on its own side.
+
+    The surface is made of the triangles between the limit positions of the vertices, which are the
+    point masses of `mass vertex`. */
+class SurfaceObstacle : protected Pointers {
+ public:
+  struct Settings {
+    int membranes = 0;          ///< their group
+    bool no_slip = false;
+    int most_bounces = 0;       ///< of an atom in one step; 0 for very many
+    double spacing = 0.0;       ///< of the grid that finds triangles; 0 to choose it
+    double stray = 0.0;         ///< how far solvent may be from its owner's sub-domain
+    std::string user;           ///< named in errors
+  };
+  SurfaceObstacle(class LAMMPS *, const Settings &);
+
+  SurfaceMotion motion;
+  SurfaceRegions regions;
+
+  // === Life cycle; all collective
+
+  void init();
+  /// From setup(): finds the region of each solvent atom.
+  void setup(const SRDSolvent &);
+  /// From post_integrate(), after control points have moved: solvent moves for the time dt.
+  void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  /// From final_integrate().
+  void remember() { motion.remember(); }
+  /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
+  bigint check(const SRDSolvent &);
+
+  // === What has happened so far
+
+  enum { COLLISIONS, CROSSINGS, RESCUES, ABANDONED, HANDED, OUTER = HANDED + 3, INNER, NUM_TALLIES };
+  /** Of this rank; sum over ranks. HANDED: momentum given to membranes, 3 numbers; OUTER, INNER:
+      impulse normal to the surface, of solvent in front of it and behind it. */
+  double tally[NUM_TALLIES];
+
+  double memory_usage() const;
+
+ private:
+  Settings settings;
+  Membrane_NS::CollisionEvents events;
+  Membrane_NS::SurfaceGrid grid;
+  bigint built_epoch;
+  std::vector<char> shared;    // vertices that atoms of several ranks may touch
+  std::vector<int> near;       // atoms that need a closer look
+  std::vector<int> entered;    // those of them that may meet a triangle
+  std::vector<int> found;
+  double vertex_slack, point_slack;
+  const std::vector<Membrane_NS::SurfaceVertex> *vertices;
+  std::vector<Membrane_NS::VertexImpulse> told, from_outside;    // by all ranks; by others
+
+  void prepare_grid(const SRDSolvent &, double dt);
+  void build_grid(const SRDSolvent &, double dt);
+  void find_shared();
+  void stream_bulk(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  bool collect(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
+  void run(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
+  bool exchange();
+  void finish(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &, Eigen::Vector3d &normal);
+  bool rescue(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest,
+              const Eigen::Vector3d &normal);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,190 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "surface_regions.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "distributed_mesh.h"
+#include "domain.h"
+#include "error.h"
+#include "membrane_tessellation.h"
+#include "memory.h"
+#include "srd_solvent.h"
+
+#include <algorithm>
+#include <map>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+using Membrane_NS::Face;
+using Membrane_NS::SurfaceSide;
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceRegions::SurfaceRegions(LAMMPS *lmp, SurfaceMotion &motion, std::string user) :
+    Pointers(lmp), region(nullptr), motion(motion), user(std::move(user)), num_surfaces(0), flip{}
+{
+}
+
+SurfaceRegions::~SurfaceRegions()
+{
+  memory->destroy(region);
+}
+
+void SurfaceRegions::grow(int nmax)
+{
+  memory->grow(region, nmax, "srd/mesh:region");
+}
+
+/* ----------------------------------------------------------------------
+   the surfaces as they are now
+------------------------------------------------------------------------- */
+
+void SurfaceRegions::locate()
+{
+  const auto &vertices = motion.places();
+  const Eigen::Matrix3d to_fraction = motion.lattice().inverse();
+  std::vector<Vector3d> points;
+  points.reserve(vertices.size());
+  for (const auto &v : vertices) points.push_back(to_fraction * v.path.origin);
+
+  auto &mesh = motion.mesh();
+  const auto &topology = mesh.topology();
+  const auto continues = continuing_directions(topology, mesh.triangle_mesh());
+  const auto &components = motion.components();
+  num_surfaces = static_cast<int>(components.size());
+  surface_of.assign(topology.num_components(), -1);
+  sides.assign(topology.num_components(), {});
+  std::vector<std::vector<Face>> faces(topology.num_components());
+  for (size_t f = 0; f < motion.surface().faces.size(); ++f)
+    faces[motion.component(f)].push_back(motion.surface().faces[f]);
+
+  std::fill_n(flip, 3, 0);
+  for (int s = 0; s < num_surfaces; ++s) {
+    const int c = components[s];
+    surface_of[c] = s;
+    int axis = 2;
+    while (axis >= 0 && continues[c][axis]) --axis;
+    if (axis < 0)
+      error->all(FLERR,
+                 "{}: membrane {} continues through the box in all three directions: its sides "
+                 "cannot be told apart",
+                 user, mesh.molecule(c));
+    sides[c] = SurfaceSide(points, faces[c], axis, motion.periodic());
+    flip[axis] = (flip[axis] + sides[c].degree()) & 1;
+  }
+}
+
+Vector3d SurfaceRegions::fraction(const double *x, imageint image) const
+{
+  const double *inv = domain->h_inv;
+  Vector3d s(inv[0] * x[0] + inv[5] * x[1] + inv[4] * x[2], inv[1] * x[1] + inv[3] * x[2],
+             inv[2] * x[2]);
+  for (int k = 0; k < 3; ++k) s[k] += flag(image, k);
+  return s;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SurfaceRegions::assign(const SRDSolvent &solvent)
+{
+  locate();
+  const auto &components = motion.components();
+
+  // the sets of levels that occur here, then everywhere
+
+  std::map<std::vector<int>, int> found;
+  std::vector<int> set(num_surfaces), list;
+  std::vector<const std::vector<int> *> set_of(solvent.last() - solvent.first(), nullptr);
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!solvent.has(i)) continue;
+    const Vector3d x = fraction(atom->x[i], atom->image[i]);
+    for (int s = 0; s < num_surfaces; ++s) set[s] = sides[components[s]].level(x);
+    const auto [entry, is_new] = found.emplace(set, 0);
+    if (is_new) list.insert(list.end(), set.begin(), set.end());
+    set_of[i - solvent.first()] = &entry->first;
+  }
+  const int nprocs = comm->nprocs;
+  int mine = static_cast<int>(list.size());
+  std::vector<int> counts(nprocs), starts(nprocs + 1, 0);
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 0; p < nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
+  std::vector<int> all(starts.back());
+  MPI_Allgatherv(list.data(), mine, MPI_INT, all.data(), counts.data(), starts.data(), MPI_INT,
+                 world);
+  std::map<std::vector<int>, int> numbers;
+  for (size_t j = 0; num_surfaces > 0 && j < all.size(); j += num_surfaces)
+    numbers.emplace(std::vector<int>(&all[j], &all[j] + num_surfaces), 0);
+  if (num_surfaces == 0) numbers.emplace(std::vector<int>(), 0);
+
+  levels.clear();
+  inside.clear();
+  for (auto &[key, number] : numbers) {
+    number = static_cast<int>(inside.size());
+    levels.insert(levels.end(), key.begin(), key.end());
+    bool is_in = false;
+    for (int s = 0; s < num_surfaces; ++s)
+      is_in = is_in || (motion.mesh().is_closed(components[s]) && key[s] != 0);
+    inside.push_back(is_in);
+  }
+  std::fill_n(region, atom->nlocal, 0);
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) region[i] = numbers.at(*set_of[i - solvent.first()]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int SurfaceRegions::parity(int r, imageint image) const
+{
+  int sum = 0;
+  for (int s = 0; s < num_surfaces; ++s) {
+    const SurfaceSide &side = sides[motion.components()[s]];
+    sum += levels[r * num_surfaces + s] - side.degree() * flag(image, side.axis());
+  }
+  return sum & 1;
+}
+
+bool SurfaceRegions::belongs(const double *x, imageint image, int r) const
+{
+  const Vector3d s = fraction(x, image);
+  for (int c : motion.components())
+    if (sides[c].level(s) != levels[r * num_surfaces + surface_of[c]]) return false;
+  return true;
+}
+
+std::vector<SurfaceRegions::Crossing> SurfaceRegions::find_crossings(const SRDSolvent &solvent)
+{
+  locate();
+  std::vector<Crossing> crossings;
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!solvent.has(i)) continue;
+    const Vector3d x = fraction(atom->x[i], atom->image[i]);
+    for (int c : motion.components()) {
+      const int level = levels[region[i] * num_surfaces + surface_of[c]];
+      if (sides[c].level(x) == level) continue;
+      crossings.push_back({i, c, level});
+      break;
+    }
+  }
+  return crossings;
+}
+
+double SurfaceRegions::memory_usage() const
+{
+  return sizeof(int) * (double) atom->nmax;
+}
