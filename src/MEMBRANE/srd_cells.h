@@ -84,12 +84,17 @@ class SRDCells : protected Pointers {
     std::vector<int> cell;
     std::vector<double> offset, drawn;
     std::vector<uint64_t> label;
+    void resize(int n);
   };
-  Binned solvent_bins, other_bins;
+  Binned solvent_bins, other_bins, filler_bins;
+  Participants fillers;
 
   Membrane_NS::SRDParticles bin_solvent(const SRDSolvent &, const int *side, bool offsets);
   Membrane_NS::SRDParticles bin_others(bool offsets);
-  void add_fillers(bigint step, const Membrane_NS::BoxWalls &, double filling, double mass);
+  static Membrane_NS::SRDParticles particles_of(Participants &, Binned &);
+  void fill(bigint step, const Membrane_NS::BoxWalls &, double filling, double mass, int layers);
+  /// The fillers' momentum, of cells that this rank owns, to the walls.
+  void hand_over(Membrane_NS::BoxWalls &, double sign) const;
 };
 
 }    // namespace LAMMPS_NS
