@@ -36,6 +36,7 @@ using Membrane_NS::BoxWalls;
 using Membrane_NS::CollisionEvents;
 using Membrane_NS::MovingPoint;
 using Membrane_NS::SurfaceGrid;
+using Membrane_NS::VertexField;
 using Membrane_NS::VertexImpulse;
 
 // all of these in edges of the mesh
@@ -48,6 +49,9 @@ static constexpr double SKIN = 0.15;
 // looked for in the first attempt, and at most
 static constexpr double FIRST_SLACK = 0.02, MOST_SLACK = 0.15;
 static constexpr double SPACING = 0.5;
+
+// of the random numbers that say with which side a point mass collides
+static constexpr uint64_t SIDE_SEED = 0x73696465;
 
 // solvent faster than this, in root mean squares, gets a closer look everywhere
 static constexpr double FAST = 2.5;
@@ -293,6 +297,40 @@ void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double 
   int mine = !events.touched().empty(), any;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) motion.apply(events.changes());
+}
+
+/* ----------------------------------------------------------------------
+   solvent that bounces back at a surface still slips where cells are cut by it, unless the surface
+   itself has mass in these cells
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::join_cells(SRDCells &cells, bigint step)
+{
+  if (!settings.no_slip) return;
+  VertexField position;
+  motion.masses_now(position, joined);
+  MeshPart &part = motion.part();
+  const Membrane_NS::CounterRandom random(SIDE_SEED, step);
+  cells.others.clear();
+  for (int i = 0; i < part.owned; ++i) {
+    const tagint tag = atom->tag[part.atom_of(i)];
+    cells.others.add(position[i].c, joined[i].c, motion.mass_of(part.vertices[i]), tag,
+                     random.uniforms(tag, 0)[0] < 0.5);
+  }
+}
+
+void SurfaceObstacle::leave_cells(SRDCells &cells)
+{
+  if (!settings.no_slip) return;
+  MeshPart &part = motion.part();
+  VertexField change(part.owned);
+  for (int i = 0; i < part.owned; ++i)
+    for (int k = 0; k < 3; ++k) {
+      change[i].c[k] = cells.others.velocity[3 * i + k] - joined[i].c[k];
+      tally[HANDED + k] += motion.mass_of(part.vertices[i]) * change[i].c[k];
+    }
+  motion.apply(change);
+  cells.others.clear();
 }
 
 /* ----------------------------------------------------------------------

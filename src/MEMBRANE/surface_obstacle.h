@@ -17,6 +17,7 @@
 #include "membrane_box_walls.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
+#include "srd_cells.h"
 #include "srd_solvent.h"
 #include "surface_motion.h"
 #include "surface_regions.h"
@@ -53,6 +54,10 @@ class SurfaceObstacle : protected Pointers {
   void setup(const SRDSolvent &);
   /// From post_integrate(), after control points have moved: solvent moves for the time dt.
   void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  /** Around a collision in cells, if the surface does not slip: the point masses take part in it, each
+      with the solvent on one of its sides, drawn anew for each step. */
+  void join_cells(SRDCells &cells, bigint step);
+  void leave_cells(SRDCells &cells);
   /// From final_integrate().
   void remember() { motion.remember(); }
   /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
@@ -83,6 +88,7 @@ class SurfaceObstacle : protected Pointers {
   std::vector<int> found;
   double vertex_slack, point_slack;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
+  Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
   std::vector<Membrane_NS::VertexImpulse> told, from_outside;    // by all ranks; by others
 
   void prepare_grid(const SRDSolvent &, double dt);
