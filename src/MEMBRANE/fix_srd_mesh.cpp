@@ -215,7 +215,7 @@ void FixSRDMesh::parse_wall_velocity(char **arg)
 int FixSRDMesh::setmask()
 {
   return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_NEIGHBOR | PRE_FORCE | MIN_PRE_FORCE |
-      FINAL_INTEGRATE | PRE_EXCHANGE | POST_RUN;
+      FINAL_INTEGRATE | PRE_EXCHANGE | END_OF_STEP | POST_RUN;
 }
 
 double FixSRDMesh::kT() const
@@ -500,9 +500,20 @@ void FixSRDMesh::pre_neighbor()
 void FixSRDMesh::pre_force(int)
 {
   if (have_forces) zero_forces();
-  if (!is_due()) return;
+}
+
+/* ----------------------------------------------------------------------
+   Positions and velocities of control points are of the same time here and nowhere else in a step.
+   Were velocities of the middle of a step changed, forces of its end would do work that no later
+   step gives back: energy would drift as dt^2.
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::end_of_step()
+{
   if (domain->box_change) cells->grid.setup(cell_settings.size);
+  if (have_obstacle) obstacle->join_cells(*cells, update->ntimestep);
   cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
+  if (have_obstacle) obstacle->leave_cells(*cells);
 }
 
 void FixSRDMesh::min_pre_force(int)
@@ -594,6 +605,7 @@ const int *FixSRDMesh::sides()
   side.resize(atom->nlocal);
   for (int i = solvent.first(); i < solvent.last(); ++i)
     if (solvent.has(i)) side[i] = regions.parity(regions.region[i], atom->image[i]);
+  for (int k = 0; k < 3; ++k) cells->flips[k] = regions.flips(k);
   return side.data();
 }
 

@@ -33,8 +33,8 @@ FixStyle(srd/mesh,FixSRDMesh);
 namespace LAMMPS_NS {
 
 /** Solvent of stochastic rotation dynamics around membranes. A step: half a kick if other fixes
-    exert forces on the solvent, streaming once integrators have moved the membranes, every N steps
-    a collision in cells once atoms are where LAMMPS wants them, and half a kick. */
+    exert forces on the solvent, streaming once integrators have moved the membranes, half a kick, and
+    every N steps a collision in cells. */
 class FixSRDMesh : public Fix {
  public:
   FixSRDMesh(class LAMMPS *, int, char **);
@@ -52,6 +52,7 @@ class FixSRDMesh : public Fix {
   void pre_force(int) override;
   void min_pre_force(int) override;
   void final_integrate() override;
+  void end_of_step() override;
   void post_run() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;

@@ -49,14 +49,17 @@ void SRDCells::Participants::clear()
   velocity.clear();
   mass.clear();
   label.clear();
+  side.clear();
 }
 
-int SRDCells::Participants::add(const double *x, const double *v, double m, uint64_t name)
+int SRDCells::Participants::add(const double *x, const double *v, double m, uint64_t name,
+                                int which_side)
 {
   position.insert(position.end(), x, x + 3);
   velocity.insert(velocity.end(), v, v + 3);
   mass.push_back(m);
   label.push_back(name);
+  side.push_back(which_side);
   return count() - 1;
 }
 
@@ -71,17 +74,21 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
     grid.place(shift);
   }
 
-  const int members = others.count();
-  if (given.shift && walls.noslip && walls.any()) add_fillers(step, walls, filling, solvent_mass);
-
   const bool offsets = rule.needs_offsets();
-  const SRDParticles atoms = bin_solvent(solvent, side, offsets), rest = bin_others(offsets);
+  const SRDParticles atoms = bin_solvent(solvent, side, offsets), rest = bin_others(side, offsets);
 
   const int layers = side ? 2 : 1, cells = grid.size(), wide = rule.num_moments();
   moments.assign((size_t) layers * cells * wide, 0.0);
   rule.add(atoms, step, moments.data());
   rule.add(rest, step, moments.data());
   for (int i = 0; i < layers; ++i) grid.sum(moments.data() + (size_t) i * cells * wide, wide);
+
+  // all ranks that hold a cell make the same fillers of it, from the same sums
+
+  const bool filled = given.shift && walls.noslip && walls.any();
+  if (filled) fill(step, walls, filling, solvent_mass, layers);
+  const SRDParticles fill_in = particles_of(fillers, filler_bins);
+  rule.add(fill_in, step, moments.data());
 
   numbers = grid.numbers();
   if (side)
@@ -90,21 +97,26 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
   rule.prepare(layers * cells, numbers.data(), step, moments.data(), actions.data());
 
   rule.apply(atoms, actions.data());
-  for (int i = members; i < others.count(); ++i)
-    for (int k = 0; k < 3; ++k) walls.impulse[k] -= others.mass[i] * others.velocity[3 * i + k];
   rule.apply(rest, actions.data());
-  for (int i = members; i < others.count(); ++i)
-    for (int k = 0; k < 3; ++k) walls.impulse[k] += others.mass[i] * others.velocity[3 * i + k];
-
-  others.position.resize(3 * members);
-  others.velocity.resize(3 * members);
-  others.mass.resize(members);
-  others.label.resize(members);
+  if (filled) {
+    hand_over(walls, -1.0);
+    rule.apply(fill_in, actions.data());
+    hand_over(walls, 1.0);
+  }
 }
 
 /* ----------------------------------------------------------------------
-   side 0 in the first layer of cells, others in the second
+   side 0 in the first layer of cells, others in the second. A cell that the periodic boundary runs
+   through is in one piece beyond one of its ends.
 ------------------------------------------------------------------------- */
+
+int SRDCells::side_of(const double *x, int side) const
+{
+  int s = side != 0;
+  for (int k = 0; k < 3; ++k)
+    if (flips[k]) s ^= grid.images(x, k) & 1;
+  return s;
+}
 
 SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, bool offsets)
 {
@@ -133,7 +145,7 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
     } else
       c = grid.cell(x[j]);
     if (c < 0) lost = j;
-    if (side && side[j] && c >= 0) c += cells;
+    if (side && c >= 0 && side_of(x[j], side[j])) c += cells;
     bins.cell[i] = c;
   }
   if (lost >= 0)
@@ -154,46 +166,69 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
   return p;
 }
 
-SRDParticles SRDCells::bin_others(bool offsets)
+SRDParticles SRDCells::bin_others(bool layers, bool offsets)
 {
-  const int count = others.count();
   Binned &bins = other_bins;
-  bins.cell.resize(count);
-  bins.offset.resize(3 * (size_t) count);
-  if (offsets) bins.drawn.resize(3 * (size_t) count);
-  for (int i = 0; i < count; ++i) {
+  bins.resize(others.count());
+  for (int i = 0; i < others.count(); ++i) {
     const double *x = &others.position[3 * i];
-    bins.cell[i] = grid.cell(x, &bins.offset[3 * i]);
+    bins.cell[i] = offsets ? grid.cell(x, &bins.offset[3 * i]) : grid.cell(x);
     if (bins.cell[i] < 0)
       error->one(FLERR,
                  "Fix srd/mesh: a point mass of the membrane at ({:.6g}, {:.6g}, {:.6g}) is far "
                  "outside of its sub-domain",
                  x[0], x[1], x[2]);
+    if (layers && side_of(x, others.side[i])) bins.cell[i] += grid.size();
   }
+  return particles_of(others, bins);
+}
+
+void SRDCells::Binned::resize(int n)
+{
+  cell.resize(n);
+  offset.resize(3 * (size_t) n);
+  drawn.resize(3 * (size_t) n);
+}
+
+SRDParticles SRDCells::particles_of(Participants &members, Binned &bins)
+{
   SRDParticles p;
-  p.count = count;
-  p.velocity = others.velocity.data();
-  p.mass = others.mass.data();
+  p.count = members.count();
+  p.velocity = members.velocity.data();
+  p.mass = members.mass.data();
   p.cell = bins.cell.data();
   p.offset = bins.offset.data();
   p.drawn = bins.drawn.data();
-  p.label = others.label.data();
+  p.label = members.label.data();
   return p;
 }
 
 /* ----------------------------------------------------------------------
-   where cells stick out of the box, an ideal gas at rest with the wall: of a gas that fills the
-   cells, the particles outside. Without them the fluid would slip [A. Lamura, G. Gompper, T. Ihle
-   and D. M. Kroll, Europhys. Lett. 56, 319 (2001); D. S. Bolintineanu et al., Phys. Rev. E 86,
-   066703 (2012)].
+   Where cells stick out of the box, an ideal gas at rest with the wall: of a gas that fills the
+   cells, the particles outside. Without it the fluid would slip [A. Lamura, G. Gompper, T. Ihle and
+   D. M. Kroll, Europhys. Lett. 56, 319 (2001)].
+
+   With a gas at rest it still slips a little. In a flow u = g z along a wall at z = 0, the part of a
+   cell inside, a fraction s, has the mean velocity g s/2 and so exchanges momentum, as s (1 - s) times
+   the difference between the parts, with one at rest; within a fluid that goes on beyond the wall
+   the difference is g/2 whatever s. Averaged over s the wall takes half of what it should, so the
+   gas has to move against the flow. It gets the mean velocity -B sqrt(s/(1 - s)) times that of the
+   solvent in the cell, with B such that the average is right: B times the integral of
+   s^(5/2) (1 - s)^(1/2) over s is 1/12. Since B < 1, noise that is weaker by sqrt(1 - B^2) leaves
+   the mean velocity of the gas the variance of equilibrium.
 ------------------------------------------------------------------------- */
 
-void SRDCells::add_fillers(bigint step, const BoxWalls &walls, double filling, double mass)
+static constexpr double OPPOSE = 0.6790610905254202;    // B = 32/(15 pi)
+
+void SRDCells::fill(bigint step, const BoxWalls &walls, double filling, double mass, int layers)
 {
   const uint64_t seed = given.rule.seed ^ FILLER_NUMBERS;
   const CounterRandom random(seed, step);
+  fillers.clear();
+  filler_bins.cell.clear();
+  filler_bins.offset.clear();
   for (int c = 0; c < grid.size(); ++c) {
-    if (!grid.owned(c) || !grid.sticks_out(c)) continue;
+    if (!grid.sticks_out(c)) continue;
     const int64_t number = grid.numbers()[c];
 
     // Poisson's distribution, by adding up its terms
@@ -206,6 +241,17 @@ void SRDCells::add_fillers(bigint step, const BoxWalls &walls, double filling, d
       sum += term;
     }
 
+    // of solvent on two sides of a membrane, the wall meets those that are more
+
+    const int wide = rule.num_moments();
+    int layer = c;
+    if (layers == 2 &&
+        moments[(size_t) wide * (c + grid.size())] > moments[(size_t) wide * c])
+      layer += grid.size();
+
+    const int first = fillers.count();
+    double still[3] = {0.0, 0.0, 0.0}, noise[3] = {0.0, 0.0, 0.0};    // sums
+    bool along[3] = {true, true, true};                               // the walls of this cell
     for (int i = 0; i < n; ++i) {
       const auto a = random.uniforms(number, 2 * i + 1), b = random.uniforms(number, 2 * i + 2);
       const double f[3] = {a[0], a[1], b[0]};
@@ -217,12 +263,42 @@ void SRDCells::add_fillers(bigint step, const BoxWalls &walls, double filling, d
             (k % 2 ? x[k / 2] > walls.position[k] : x[k / 2] < walls.position[k]))
           face = k;
       if (face < 0) continue;
+      along[face / 2] = false;
       const uint64_t label = FILLER_LABEL | (static_cast<uint64_t>(number) << 16) | i;
       Membrane_NS::thermal_velocity(seed, step, label, given.rule.kT, mass, v);
-      for (int k = 0; k < 3; ++k) v[k] += walls.velocity[face][k];
-      others.add(x, v, mass, label);
+      for (int k = 0; k < 3; ++k) {
+        noise[k] += v[k];
+        still[k] += walls.velocity[face][k];
+        v[k] += walls.velocity[face][k];
+      }
+      fillers.add(x, v, mass, label);
+      filler_bins.cell.push_back(layer);
+      double offset[3];
+      grid.cell(x, offset);
+      filler_bins.offset.insert(filler_bins.offset.end(), offset, offset + 3);
+    }
+
+    const int added = fillers.count() - first;
+    const double *solvent = &moments[(size_t) wide * layer];    // count, mass, momentum
+    if (added == 0 || !(solvent[1] > 0.0)) continue;
+    const double against = OPPOSE * std::sqrt(solvent[1] / (added * mass)),
+                 weaker = std::sqrt(1.0 - OPPOSE * OPPOSE) - 1.0;
+    for (int k = 0; k < 3; ++k) {
+      if (!along[k]) continue;
+      const double change = weaker * noise[k] / added -
+          against * (solvent[2 + k] / solvent[1] - still[k] / added);
+      for (int i = first; i < fillers.count(); ++i) fillers.velocity[3 * i + k] += change;
     }
   }
+  filler_bins.resize(fillers.count());
+}
+
+void SRDCells::hand_over(BoxWalls &walls, double sign) const
+{
+  for (int i = 0; i < fillers.count(); ++i)
+    if (grid.owned(filler_bins.cell[i] % grid.size()))
+      for (int k = 0; k < 3; ++k)
+        walls.impulse[k] += sign * fillers.mass[i] * fillers.velocity[3 * i + k];
 }
 
 /* ---------------------------------------------------------------------- */

@@ -71,6 +71,14 @@ class SRDGrid : protected Pointers {
   }
   /// The same, and the position relative to the centre of the cell.
   int cell(const double *x, double *offset) const;
+  /// How many boxes a position's cell is from where this grid has it, along k; 0 if not periodic.
+  int images(const double *x, int k) const
+  {
+    if (!periodic[k]) return 0;
+    double t[3];
+    grid_coordinates(x, t);
+    return static_cast<int>(std::floor(std::floor(t[k]) / n[k]));
+  }
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
   /// Back into the box in periodic directions in which this rank has all of it.

@@ -17,6 +17,7 @@
 #include "membrane_box_walls.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
+#include "srd_cells.h"
 #include "srd_solvent.h"
 #include "surface_motion.h"
 #include "surface_regions.h"
@@ -53,6 +54,10 @@ class SurfaceObstacle : protected Pointers {
   void setup(const SRDSolvent &);
   /// From post_integrate(), after control points have moved: solvent moves for the time dt.
   void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  /** Around a collision in cells, if the surface does not slip: the point masses take part in it, each
+      with the solvent on one of its sides, drawn anew for each step. */
+  void join_cells(SRDCells &cells, bigint step);
+  void leave_cells(SRDCells &cells);
   /// From final_integrate().
   void remember() { motion.remember(); }
   /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
@@ -73,11 +78,17 @@ class SurfaceObstacle : protected Pointers {
   Membrane_NS::SurfaceGrid grid;
   bigint built_epoch;
   std::vector<char> shared;    // vertices that atoms of several ranks may touch
-  std::vector<int> near;       // atoms that need a closer look
-  std::vector<int> entered;    // those of them that may meet a triangle
+  struct Near {                // an atom that needs a closer look
+    int atom;
+    Membrane_NS::MovingPoint path;
+    double speed;
+  };
+  std::vector<Near> near;
+  std::vector<int> entered;    // those of them that may meet a triangle, by number
   std::vector<int> found;
   double vertex_slack, point_slack;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
+  Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
   std::vector<Membrane_NS::VertexImpulse> told, from_outside;    // by all ranks; by others
 
   void prepare_grid(const SRDSolvent &, double dt);
