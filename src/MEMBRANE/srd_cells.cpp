@@ -245,8 +245,7 @@ void SRDCells::fill(bigint step, const BoxWalls &walls, double filling, double m
 
     const int wide = rule.num_moments();
     int layer = c;
-    if (layers == 2 &&
-        moments[(size_t) wide * (c + grid.size())] > moments[(size_t) wide * c])
+    if (layers == 2 && moments[(size_t) wide * (c + grid.size())] > moments[(size_t) wide * c])
       layer += grid.size();
 
     const int first = fillers.count();
@@ -285,8 +284,8 @@ void SRDCells::fill(bigint step, const BoxWalls &walls, double filling, double m
                  weaker = std::sqrt(1.0 - OPPOSE * OPPOSE) - 1.0;
     for (int k = 0; k < 3; ++k) {
       if (!along[k]) continue;
-      const double change = weaker * noise[k] / added -
-          against * (solvent[2 + k] / solvent[1] - still[k] / added);
+      const double change =
+          weaker * noise[k] / added - against * (solvent[2 + k] / solvent[1] - still[k] / added);
       for (int i = first; i < fillers.count(); ++i) fillers.velocity[3 * i + k] += change;
     }
   }
