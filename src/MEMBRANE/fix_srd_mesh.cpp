@@ -42,6 +42,9 @@ static constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 // with shorter free paths than these, in cells, solvent meets the same partners again and again
 static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
 
+// default modulus in kT that keeps faces from turning over among solvent
+static constexpr double STIFF_MESH = 10.0;
+
 /* ---------------------------------------------------------------------- */
 
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
@@ -242,9 +245,30 @@ void FixSRDMesh::init()
     if (group->count(membrane) > 0) {
       mass->init();
       obstacle->init();
+      keep_meshes_in_shape();
     }
   }
   prepare_cells();
+}
+
+/* ----------------------------------------------------------------------
+   impulses shake control points along the fluid membrane, too, where nothing holds them: within a few
+   hundred steps faces would turn over
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::keep_meshes_in_shape()
+{
+  int dim;
+  Pair *helfrich = force->pair_match("helfrich", 1);
+  auto *regularize =
+      helfrich ? static_cast<double *>(helfrich->extract("default_regularize", dim)) : nullptr;
+  if (!regularize || mass->count() == 0) return;
+  *regularize = STIFF_MESH * force->boltz * temperature;
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
+                   "has none\n",
+                   *regularize, STIFF_MESH);
 }
 
 /* ----------------------------------------------------------------------

@@ -106,6 +106,7 @@ class FixSRDMesh : public Fix {
   void parse(int, char **);
   void parse_wall_velocity(char **);
   void check_group();
+  void keep_meshes_in_shape();
   void find_forces();
   void prepare_cells();
   void report();

@@ -79,6 +79,7 @@ HelfrichCoefficients HelfrichCoefficients::parse(LAMMPS *lmp, int narg, char **a
       iarg += 2;
     } else if (key == "regularize") {
       c.regularize = modulus(iarg);
+      c.regularize_given = true;
       iarg += 2;
     } else
       error->all(FLERR,

@@ -29,7 +29,7 @@ struct HelfrichCoefficients {
   double volume_modulus = 0.0, volume = 0.0;
   double pressure = 0.0;      ///< DP: energy -DP V
   double regularize = 0.0;    ///< KR: energy KR (D/A - 1) of a face's shape
-  bool area_init = false, volume_init = false;
+  bool area_init = false, volume_init = false, regularize_given = false;
 
   /// The words kc c0 [keyword value ...]; stops with an error that names what is wrong.
   static HelfrichCoefficients parse(class LAMMPS *, int narg, char **arg);

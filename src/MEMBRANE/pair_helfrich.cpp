@@ -50,7 +50,7 @@ static constexpr double WORST_FACE = 50.0;
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
     Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
     volumes(false), area_local(false), gauss(false), regularized(false), report(false),
-    points_evaluated(0.0), restored(false), epoch(-1), totals(lmp)
+    default_regularize(0.0), terms_for_default(0.0), points_evaluated(0.0), restored(false), epoch(-1), totals(lmp)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -138,6 +138,7 @@ void PairHelfrich::coeff(int narg, char **arg)
 void PairHelfrich::init_style()
 {
   mesh = &DistributedMesh::of(lmp, "Pair style helfrich");
+  default_regularize = 0.0;    // fixes that need one set it in their own init()
   mesh->update();
   epoch = -1;
 
@@ -253,7 +254,7 @@ void PairHelfrich::choose_terms()
       volumes = volumes || c.uses_volume();
       area_local = area_local || c.local_area_modulus != 0.0;
       gauss = gauss || c.kg != 0.0;
-      regularized = regularized || c.regularize != 0.0;
+      regularized = regularized || regularize_of(c) != 0.0;
     }
 
   totals.reset(*mesh);
@@ -267,6 +268,7 @@ void PairHelfrich::choose_terms()
   if (!modify->get_compute_by_style("^pair$").empty())
     for (int m = 0; m < nmembranes; ++m) report = report || mesh->is_closed_membrane(m);
   generation = mesh->generation();
+  terms_for_default = default_regularize;
 
   membrane_faces.clear();
   reference_area.clear();
@@ -369,7 +371,7 @@ void PairHelfrich::localize()
         model.kg[slot] += c.kg / 3.0;
         base_tension[slot] += c.tension / 3.0;
         if (area_local) local_modulus[slot] += c.local_area_modulus / 3.0;
-        if (regularized) regularization[slot] += c.regularize / 3.0;
+        if (regularized) regularization[slot] += regularize_of(c) / 3.0;
       }
     }
   model.tension = base_tension;
@@ -488,7 +490,10 @@ void PairHelfrich::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   mesh->refresh();
-  if (mesh->generation() != generation) choose_terms();
+  if (mesh->generation() != generation || terms_for_default != default_regularize) {
+    choose_terms();
+    epoch = -1;
+  }
   if (epoch != mesh->epoch()) localize();
 
   const bool wants_volume = volumes || (eflag_global && report);
@@ -728,12 +733,17 @@ void PairHelfrich::read_restart(FILE *fp)
 
 /* ---------------------------------------------------------------------- */
 
-// bending moduli by type, for min style membrane
+/* ----------------------------------------------------------------------
+   kc: bending moduli by type, for min style membrane; default_regularize: of types that pair_coeff says
+   nothing of, for a fix to set before each run
+------------------------------------------------------------------------- */
 
 void *PairHelfrich::extract(const char *name, int &dim)
 {
-  dim = 1;
+  dim = 0;
+  if (strcmp(name, "default_regularize") == 0) return &default_regularize;
   if (strcmp(name, "kc") != 0) return nullptr;
+  dim = 1;
   moduli.resize(coefficients.size());
   for (size_t t = 0; t < coefficients.size(); ++t) moduli[t] = coefficients[t].kc;
   return moduli.data();

@@ -75,6 +75,7 @@ class PairHelfrich : public Pair {
   std::vector<std::vector<int>> membrane_faces;        // for area/local only
   std::vector<double> reference_area;                  // by face, for area/local only
   bool first_pass, volumes, area_local, gauss, regularized, report;
+  double default_regularize, terms_for_default;    // KR where pair_coeff says none; see extract()
   double points_evaluated;    // of quadrature, in this step on this rank
   bool restored;    // references come from a restart file and outlive the next pair_coeff
 
@@ -91,6 +92,10 @@ class PairHelfrich : public Pair {
 
   void allocate();
   void check_integrators();
+  double regularize_of(const HelfrichCoefficients &c) const
+  {
+    return c.regularize_given ? c.regularize : default_regularize;
+  }
   void choose_terms();
   bool in_exclusion(int mask, int e) const;
   std::vector<char> find_excluded(const std::vector<char> &whole_terms) const;
