@@ -89,6 +89,7 @@ class SRDCells : protected Pointers {
   Binned solvent_bins, other_bins, filler_bins;
   Participants fillers;
 
+  void change_frame(const SRDSolvent &, double sign);
   Membrane_NS::SRDParticles bin_solvent(const SRDSolvent &, const int *side, bool offsets);
   Membrane_NS::SRDParticles bin_others(bool offsets);
   static Membrane_NS::SRDParticles particles_of(Participants &, Binned &);
