@@ -494,7 +494,7 @@ void FixSRDMesh::post_integrate()
     streaming.stream(solvent, update->dt);
   sampled = -1;
   const bool due = is_due();
-  if (due && aside.active())
+  if (due && aside.active() && !domain->deform_vremap)    // LAMMPS changes velocities, too
     for (int i = solvent.first(); i < solvent.last(); ++i)
       if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
   if ((due && domain->deform_vremap) || (comm->nprocs > 1 && any_strayed()))

@@ -18,6 +18,7 @@
 #include "srd_cells.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "membrane_random.h"
 #include "update.h"
@@ -75,6 +76,7 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
   }
 
   const bool offsets = rule.needs_offsets();
+  change_frame(solvent, 1.0);
   const SRDParticles atoms = bin_solvent(solvent, side, offsets), rest = bin_others(side, offsets);
 
   const int layers = side ? 2 : 1, cells = grid.size(), wide = rule.num_moments();
@@ -103,6 +105,29 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
     rule.apply(fill_in, actions.data());
     hand_over(walls, 1.0);
   }
+  change_frame(solvent, -1.0);
+}
+
+/* ----------------------------------------------------------------------
+   periodic images of a box that deforms move at different velocities, if fix deform remaps them: in a
+   cell that reaches over the boundary, as in Domain::pbc()
+------------------------------------------------------------------------- */
+
+void SRDCells::change_frame(const SRDSolvent &solvent, double sign)
+{
+  if (!domain->deform_vremap) return;
+  const double *rate = domain->h_rate;
+  auto change = [&](const double *x, double *v) {
+    int times[3];
+    grid.passed(x, times);
+    v[0] -= sign * (rate[0] * times[0] + rate[5] * times[1] + rate[4] * times[2]);
+    v[1] -= sign * (rate[1] * times[1] + rate[3] * times[2]);
+    v[2] -= sign * rate[2] * times[2];
+  };
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i) && atom->mask[i] & domain->deform_groupbit) change(atom->x[i], atom->v[i]);
+  for (int i = 0; i < others.count(); ++i)
+    change(&others.position[3 * i], &others.velocity[3 * i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -112,9 +137,11 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
 
 int SRDCells::side_of(const double *x, int side) const
 {
-  int s = side != 0;
+  int s = side != 0, times[3];
+  if (!flips[0] && !flips[1] && !flips[2]) return s;
+  grid.passed(x, times);
   for (int k = 0; k < 3; ++k)
-    if (flips[k]) s ^= grid.images(x, k) & 1;
+    if (flips[k]) s ^= times[k] & 1;
   return s;
 }
 

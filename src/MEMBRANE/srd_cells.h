@@ -94,6 +94,7 @@ class SRDCells : protected Pointers {
   Participants fillers;
 
   int side_of(const double *x, int side) const;
+  void change_frame(const SRDSolvent &, double sign);
   Membrane_NS::SRDParticles bin_solvent(const SRDSolvent &, const int *side, bool offsets);
   Membrane_NS::SRDParticles bin_others(bool layers, bool offsets);
   static Membrane_NS::SRDParticles particles_of(Participants &, Binned &);

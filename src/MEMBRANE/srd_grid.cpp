@@ -97,20 +97,26 @@ void SRDGrid::hold(double reach)
   const double per_length[3] = {
       std::sqrt(h_inv[0] * h_inv[0] + h_inv[5] * h_inv[5] + h_inv[4] * h_inv[4]),
       std::sqrt(h_inv[1] * h_inv[1] + h_inv[3] * h_inv[3]), std::fabs(h_inv[2])};
+  double lo[3], hi[3], width[3], narrowest[3];    // fractions of the box
   for (int k = 0; k < 3; ++k) {
-    double lo, hi;    // fractions of the box
     if (domain->triclinic) {
-      lo = domain->sublo_lamda[k];
-      hi = domain->subhi_lamda[k];
+      lo[k] = domain->sublo_lamda[k];
+      hi[k] = domain->subhi_lamda[k];
     } else {
-      lo = (domain->sublo[k] - domain->boxlo[k]) / domain->prd[k];
-      hi = (domain->subhi[k] - domain->boxlo[k]) / domain->prd[k];
+      lo[k] = (domain->sublo[k] - domain->boxlo[k]) / domain->prd[k];
+      hi[k] = (domain->subhi[k] - domain->boxlo[k]) / domain->prd[k];
     }
-    const double width = hi - lo;
-    whole[k] = width > 0.999999;
-    const double more = whole[k] ? 0.5 : std::min(reach * per_length[k], width);
-    stray_lo[k] = lo - more;
-    stray_hi[k] = hi + more;
+    width[k] = hi[k] - lo[k];
+  }
+
+  // LAMMPS' exchange hands an atom on to the next rank, not to one beyond: neighbours may be narrow
+
+  MPI_Allreduce(width, narrowest, 3, MPI_DOUBLE, MPI_MIN, world);
+  for (int k = 0; k < 3; ++k) {
+    whole[k] = width[k] > 0.999999;
+    const double more = whole[k] ? 0.5 : std::min(reach * per_length[k], 0.5 * narrowest[k]);
+    stray_lo[k] = lo[k] - more;
+    stray_hi[k] = hi[k] + more;
 
     // one cell lower for the shift, and one to either side for rounding
 

@@ -28,7 +28,9 @@ namespace LAMMPS_NS {
 
     Cells divide the box; in a tilted box they are tilted alike. Each rank holds the cells that its
     sub-domain, widened by a reach, may touch wherever the grid is placed; so neighbours hold some
-    cells in common, and a particle may stray from its owner's sub-domain by as much as the reach.
+    cells in common, and a particle may stray from its owner's sub-domain by as much as the reach,
+    though not by more than half of the narrowest sub-domain.
+
     Cells may be larger than sub-domains. In directions without periodicity the grid has one more
     cell, since the first and the last may stick out of the box. */
 class SRDGrid : protected Pointers {
@@ -71,13 +73,13 @@ class SRDGrid : protected Pointers {
   }
   /// The same, and the position relative to the centre of the cell.
   int cell(const double *x, double *offset) const;
-  /// How many boxes a position's cell is from where this grid has it, along k; 0 if not periodic.
-  int images(const double *x, int k) const
+  /// How many times the grid, repeated periodically, has been passed on the way to a position.
+  void passed(const double *x, int *times) const
   {
-    if (!periodic[k]) return 0;
     double t[3];
     grid_coordinates(x, t);
-    return static_cast<int>(std::floor(std::floor(t[k]) / n[k]));
+    for (int k = 0; k < 3; ++k)
+      times[k] = periodic[k] ? static_cast<int>(std::floor(std::floor(t[k]) / n[k])) : 0;
   }
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
