@@ -70,6 +70,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
   SurfaceObstacle::Settings settings;
   settings.membranes = membrane;
   settings.no_slip = noslip;
+  settings.control = control;
   settings.most_bounces = bounces;
   settings.spacing = search;
   settings.stray = cell_settings.size;

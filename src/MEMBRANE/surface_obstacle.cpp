@@ -37,7 +37,7 @@ using Membrane_NS::CollisionEvents;
 using Membrane_NS::MovingPoint;
 using Membrane_NS::SurfaceGrid;
 using Membrane_NS::VertexField;
-using Membrane_NS::VertexImpulse;
+using Membrane_NS::SurfaceImpulse;
 
 // all of these in edges of the mesh
 
@@ -78,6 +78,10 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
   rule.no_slip = settings.no_slip;
   rule.contact = CONTACT * motion.edge();
   if (settings.most_bounces > 0) rule.most_bounces = settings.most_bounces;
+  if (settings.control) {
+    inverse_mask = std::make_unique<Membrane_NS::InverseMask>(motion.mesh().topology());
+    rule.control = inverse_mask.get();
+  }
   events = CollisionEvents(rule);
   grid = {};
   vertex_slack = point_slack = FIRST_SLACK * motion.edge();
@@ -157,7 +161,7 @@ void SurfaceObstacle::find_shared()
     for (int v : motion.surface().faces[image.face]) users[v] = motion.owner(v) == comm->me ? 1 : 2;
   MPI_Allreduce(users.data(), sum.data(), n, MPI_INT, MPI_SUM, world);
   shared.resize(n);
-  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1;
+  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1 || settings.control;
 }
 
 /* ----------------------------------------------------------------------
@@ -242,8 +246,8 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
 
 bool SurfaceObstacle::exchange()
 {
-  std::vector<VertexImpulse> mine;
-  for (const VertexImpulse &impulse : events.impulses())
+  std::vector<SurfaceImpulse> mine;
+  for (const SurfaceImpulse &impulse : events.impulses())
     for (int v : impulse.vertex)
       if (shared[v] && motion.is_free(v)) {
         mine.push_back(impulse);
@@ -251,17 +255,17 @@ bool SurfaceObstacle::exchange()
       }
 
   const int nprocs = comm->nprocs;
-  int bytes = static_cast<int>(mine.size() * sizeof(VertexImpulse));
+  int bytes = static_cast<int>(mine.size() * sizeof(SurfaceImpulse));
   std::vector<int> counts(nprocs), starts(nprocs + 1, 0);
   MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   for (int p = 0; p < nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
-  std::vector<VertexImpulse> all(starts.back() / sizeof(VertexImpulse));
+  std::vector<SurfaceImpulse> all(starts.back() / sizeof(SurfaceImpulse));
   if (!all.empty())
     MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE,
                    world);
   if (all == told) return false;
 
-  const auto first = all.begin() + starts[comm->me] / sizeof(VertexImpulse);
+  const auto first = all.begin() + starts[comm->me] / sizeof(SurfaceImpulse);
   from_outside.assign(all.begin(), first);
   from_outside.insert(from_outside.end(), first + mine.size(), all.end());
   told = std::move(all);
@@ -426,5 +430,6 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
 
 double SurfaceObstacle::memory_usage() const
 {
-  return motion.memory_usage() + regions.memory_usage() + grid.memory_usage();
+  return motion.memory_usage() + regions.memory_usage() + grid.memory_usage() +
+      (inverse_mask ? inverse_mask->memory_usage() : 0.0);
 }

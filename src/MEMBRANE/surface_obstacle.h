@@ -17,11 +17,13 @@
 #include "membrane_box_walls.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
+#include "membrane_inverse_mask.h"
 #include "srd_cells.h"
 #include "srd_solvent.h"
 #include "surface_motion.h"
 #include "surface_regions.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,7 @@ class SurfaceObstacle : protected Pointers {
   struct Settings {
     int membranes = 0;          ///< their group
     bool no_slip = false;
+    bool control = false;       ///< impulses act on control points
     int most_bounces = 0;       ///< of an atom in one step; 0 for very many
     double spacing = 0.0;       ///< of the grid that finds triangles; 0 to choose it
     double stray = 0.0;         ///< how far solvent may be from its owner's sub-domain
@@ -76,6 +79,7 @@ class SurfaceObstacle : protected Pointers {
   Settings settings;
   Membrane_NS::CollisionEvents events;
   Membrane_NS::SurfaceGrid grid;
+  std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
   bigint built_epoch;
   std::vector<char> shared;    // vertices that atoms of several ranks may touch
   struct Near {                // an atom that needs a closer look
@@ -89,7 +93,7 @@ class SurfaceObstacle : protected Pointers {
   double vertex_slack, point_slack;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
   Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
-  std::vector<Membrane_NS::VertexImpulse> told, from_outside;    // by all ranks; by others
+  std::vector<Membrane_NS::SurfaceImpulse> told, from_outside;    // by all ranks; by others
 
   void prepare_grid(const SRDSolvent &, double dt);
   void build_grid(const SRDSolvent &, double dt);
