@@ -4,8 +4,7 @@ hd/brownian alike, and no mode grows without bound; with quadrature 1 one does.
     MEMBRANE_LONG=1    1,000,000 steps in each run in place of some ten thousand
 
 Temperatures are low, kT = 1e-4 kc, so that undulations are small and theory holds to 0.1 % or better.
-Theory for the plane is that of the discrete system, see
-thermal_factor(). Modes that symmetry makes
+Theory for the plane is that of the discrete system, see thermal_factor(). Modes that symmetry makes
 equal are taken together: all of one |q|, all m of one l. The error of a mean is from 32 blocks of the
 run, each many relaxation times long. Of many means some are off by more than two standard errors by
 chance: the claims are that the largest deviation and the sum of squares are within what 99 % of runs
@@ -27,7 +26,11 @@ KT = 1e-4
 
 def length(steps):
     """Steps of a block, a multiple of EVERY, for about so many steps in all."""
-    return (1000000 if LONG else steps) // (BLOCKS * EVERY) * EVERY
+    return steps // (BLOCKS * EVERY) * EVERY
+
+
+def run_length(steps):
+    return 1000000 if LONG else steps
 
 
 def averages(path):
@@ -155,6 +158,7 @@ for name, fix, dt, steps, terms in (
          "regularize 0.1"),
         ("plane with tension 0.5", "hd/langevin {kT} {kT} 2.0 4714 mass lumped", 0.4, 30000,
          "regularize 0.1 tension 0.5")):
+    steps = run_length(steps)
     blocks, rows = plane(fix.format(kT=KT), dt, steps, terms)
     tension = 0.5 if "tension" in terms else 0.0
     ratios[name] = shells(blocks, tension=tension)
@@ -181,7 +185,7 @@ for rule in (6, 1):
 
 
 def sphere(fix, dt, steps, level=3, lmax=8, terms="", c0=0.0, s=0.0):
-    per, points = length(steps), 10 * 4 ** level + 2
+    per, points = length(run_length(steps)), 10 * 4 ** level + 2
     columns = " ".join(f"c_m[{row}][6]" for row in range(1, (lmax + 1) ** 2 + 1))
     output = run(f"""
 units           lj
