@@ -50,7 +50,7 @@ static constexpr double STIFF_MESH = 10.0;
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
     cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
-    overlap(true), set_velocities(true), ghosts(false), bounces(0), level(0), search(0.0),
+    set_velocities(true), ghosts(false), bounces(0), search(0.0),
     solvent(lmp, igroup), streaming(lmp), have_obstacle(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     clear_forces(false), values{}, carried{}, sampled(-1)
@@ -147,8 +147,6 @@ void FixSRDMesh::parse(int narg, char **arg)
       noslip = choice({"slip", "noslip"}) == 1;
     } else if (key == "impulse") {
       control = choice({"surface", "control"}) == 1;
-    } else if (key == "overlap") {
-      overlap = utils::logical(FLERR, word, false, lmp);
     } else if (key == "inside") {
       inside = static_cast<Inside>(choice({"error", "warn", "ignore"}));
     } else if (key == "bounce") {
@@ -156,10 +154,6 @@ void FixSRDMesh::parse(int narg, char **arg)
       if (bounces < 0) error->all(FLERR, "Fix srd/mesh bounce {} must not be negative", word);
     } else if (key == "search") {
       search = positive("search", word);
-    } else if (key == "level") {
-      level = utils::inumeric(FLERR, word, false, lmp);
-      if (level < 0 || level > 4)
-        error->all(FLERR, "Fix srd/mesh level {} must be between 0 and 4", word);
     } else if (key == "cubic") {
       need(2);
       used = 3;
@@ -191,7 +185,7 @@ void FixSRDMesh::parse(int narg, char **arg)
     } else
       error->all(FLERR,
                  "Unknown fix srd/mesh keyword {}; known are: lamda, angle, method, collision, "
-                 "impulse, overlap, inside, bounce, search, level, cubic, shift, tstat, velocity, "
+                 "impulse, inside, bounce, search, cubic, shift, tstat, velocity, "
                  "ghosts, wall, wall/velocity",
                  key);
     iarg += used;

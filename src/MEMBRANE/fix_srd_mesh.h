@@ -73,8 +73,8 @@ class FixSRDMesh : public Fix {
   bool cubic_error;
   double cubic_tolerance;
   enum class Inside { ERROR, WARN, IGNORE } inside;
-  bool noslip, control, overlap, set_velocities, ghosts;
-  int bounces, level;
+  bool noslip, control, set_velocities, ghosts;
+  int bounces;
   double search;
   SRDCells::Settings cell_settings;
 
@@ -97,7 +97,7 @@ class FixSRDMesh : public Fix {
 
   enum {
     TEMPERATURE, COLLISIONS, CROSSINGS, RESCUES, MOMENTUM, INSIDE = MOMENTUM + 3, OUTSIDE,
-    VISCOSITY, TEMPERATURE_IN, TEMPERATURE_OUT, HANDED, FREE_PATH = HANDED + 3, PRESSURE,
+    VISCOSITY, TEMPERATURE_IN, TEMPERATURE_OUT, HANDED, FREE_PATH = HANDED + 3,
     WALLS, NUM_VALUES = WALLS + 3
   };
   double values[NUM_VALUES], carried[NUM_VALUES];    // now; up to the restart file
