@@ -605,6 +605,7 @@ void FixSRDMesh::sample_obstacle()
   values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS];
   values[RESCUES] = sum[SurfaceObstacle::RESCUES];
   std::copy_n(sum + SurfaceObstacle::HANDED, 3, values + HANDED);
+  values[NORMAL_IMPULSE] = sum[SurfaceObstacle::INNER] - sum[SurfaceObstacle::OUTER];
 
   const SurfaceRegions &regions = obstacle->regions;
   bigint mine = 0, all;
@@ -676,7 +677,7 @@ void FixSRDMesh::write_restart(FILE *fp)
   double list[NUM_VALUES + 1] = {};
   list[0] = velocities_set;
   for (int i : {(int) COLLISIONS, (int) CROSSINGS, (int) RESCUES, (int) HANDED, HANDED + 1,
-                HANDED + 2, (int) WALLS, WALLS + 1, WALLS + 2})
+                HANDED + 2, (int) NORMAL_IMPULSE, (int) WALLS, WALLS + 1, WALLS + 2})
     list[1 + i] = cells ? values[i] : carried[i];
   if (comm->me != 0) return;
   const int size = sizeof(list);

@@ -98,7 +98,7 @@ class FixSRDMesh : public Fix {
   enum {
     TEMPERATURE, COLLISIONS, CROSSINGS, RESCUES, MOMENTUM, INSIDE = MOMENTUM + 3, OUTSIDE,
     VISCOSITY, TEMPERATURE_IN, TEMPERATURE_OUT, HANDED, FREE_PATH = HANDED + 3,
-    WALLS, NUM_VALUES = WALLS + 3
+    NORMAL_IMPULSE, WALLS, NUM_VALUES = WALLS + 3
   };
   double values[NUM_VALUES], carried[NUM_VALUES];    // now; up to the restart file
   bigint sampled;

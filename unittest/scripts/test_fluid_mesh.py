@@ -3,6 +3,7 @@ coarse meshes are left alone. fix nve on control points is warned of."""
 # ranks: 2
 
 import math
+import re
 
 from lammps_claims import claim, error_of, finish, lammps, run, thermo
 from membrane_scenes import TETRAHEDRON, bipyramid, write_off
@@ -27,13 +28,15 @@ thermo          1000
 timestep        0.1
 run             {{steps}}
 """
-SAID = ("turned over", "collapses")
+# on several ranks a stencil may outgrow the communication cutoff first: that message, too, has face and cure
+SAID = ("turned over", "collapses", "beyond the communication cutoff")
 for fix in ("hd/langevin 1e-3 1e-3 3 4711", "hd/langevin 1e-3 1e-3 3 4711 mass lumped",
             "hd/brownian 1e-3 4711 gamma_t 1 mass lumped"):
     for ranks in (1, 2):
         error = error_of(FLUID.format(terms="", fix=fix, modify="fix_modify 1 faces 0", steps=40000), ranks=ranks)
         claim(f"{fix}, {ranks} rank(s): a fluid sheet stops with the face and the cure",
-              f"Fix {fix.split()[0]}: face " in error and any(word in error for word in SAID) and
+              re.search(rf"Fix {fix.split()[0]}: face |: face .* needs control point", error) and
+              any(word in error for word in SAID) and
               "regularize in pair_coeff" in error, error)
     rows = thermo(run(FLUID.format(terms="regularize 0.1", fix=fix, modify="", steps=40000)))
     claim("    with regularize it runs on, the smallest angle above 30 degrees",

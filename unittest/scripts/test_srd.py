@@ -132,7 +132,8 @@ for name, scene, args in (("bulk", {}, "shift yes 9127 tstat yes"), ("at+a", {},
         claim(f"{name}, {ranks} rank(s): a run continued from a restart file is bitwise the same",
               open("straight.dump").read() == open("again.dump").read())
         worst = max(abs(straight[-1][k] - x) / (1 + abs(x)) for k, x in again[-1].items())
-        claim("and what the fix reports agrees to rounding", worst < 1e-12, f"{worst:.1e}")
+        # what walls have received is a sum of many impulses of both signs, taken in another order
+        claim("and what the fix reports agrees to rounding", worst < 1e-11, f"{worst:.1e}")
 
 # === Walls and forces
 
