@@ -2,11 +2,11 @@
 """Speed in LJ units: seconds per control point and step, over the seconds per atom and step of
 LAMMPS' Lennard-Jones benchmark, both timed in this run.
 
-  bench/run_bench.py [--lmp build/lmp] [--repeat 5] [--levels 3,5,7] [--out bench.csv]
+  bench/run_bench.py [--lmp build/lmp] [--repeat 5] [--levels 3,4,5,6,7] [--ranks 2] [--out bench]
 
-Each case is run `repeat` times in turn with the benchmark; the table has the median of the ratios
-and, in brackets, the smallest and the largest. Set-up time and memory are those of a whole run of
-no steps."""
+A sphere of 10*4^level + 2 control points. In each round the benchmark is run before the cases of a level; the
+tables have the median over the rounds and, in brackets, the smallest and the largest. Writes
+OUT.csv and, with python3-matplotlib, OUT.png."""
 
 import argparse
 import csv
@@ -15,29 +15,89 @@ import re
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
-# name, input variables, which line of LAMMPS' timing counts
-CASES = [
-    ("force, 3 points", {"quadrature": "3"}, "Pair"),
-    ("force, 6 points", {"quadrature": "6"}, "Pair"),
-    ("force, 6 points, area, volume",
-     {"quadrature": "6", "terms": "area 100 init volume 100 init"}, "Pair"),
-    ("step hd/nve, 3 points", {"quadrature": "3", "integrate": "yes", "fix": "hd/nve"}, "Loop"),
-    ("step hd/nve, 6 points", {"quadrature": "6", "integrate": "yes", "fix": "hd/nve"}, "Loop"),
-    ("step hd/nve mass lumped, 3 points", {"quadrature": "3", "integrate": "yes", "fix": "hd/nve mass lumped"}, "Loop"),
-]
+FAST = {"quadrature": "3"}
+DEFAULT = {"quadrature": "6"}
+TOTALS = {"terms": "area 100 init volume 100 init"}
 
 
-def lammps(lmp, script, variables):
+def fix(style):
+    return {"integrate": "yes", "fix": style}
+
+
+# name, input variables, line of LAMMPS' timing that counts
+CASES = {
+    "force, 3 points": (FAST, "Pair"),
+    "force, 6 points": (DEFAULT, "Pair"),
+    "force, 6 points, area and volume": ({**DEFAULT, **TOTALS}, "Pair"),
+    "hd/nve, 3 points": ({**FAST, **fix("hd/nve")}, "Loop"),
+    "hd/nve, 6 points": ({**DEFAULT, **fix("hd/nve")}, "Loop"),
+    "hd/nve mass lumped, 3 points": ({**FAST, **fix("hd/nve mass lumped")}, "Loop"),
+    "hd/langevin, 3 points": ({**FAST, **fix("hd/langevin 1.0 1.0 1.0 4711")}, "Loop"),
+}
+# M^-1 f: what the fix takes with the mass matrix, less what it takes with a diagonal one
+SOLVE = "M^-1 f, tol 1e-10"
+MASK = "one solve with L"
+SCALING = ["hd/nve, 3 points", "hd/langevin, 3 points"]
+
+# floating-point operations of a quadrature point in the kernel of membrane_helfrich.cpp, no optional
+# term: 5 derivatives of 12 points forth and back, and the energy density with its chain rule
+FLOPS = 2 * 5 * 12 * 3 * 2 + 160
+
+PEAK = r"""
+#include <chrono>
+#include <cstdio>
+typedef double V __attribute__((vector_size(64)));
+int main()
+{
+  V x[10], a = {}, b = {};
+  for (int l = 0; l < 8; ++l) a[l] = 1.0 - 1e-9 * l, b[l] = 1e-9;
+  for (auto &v : x) v = a;
+  double best = 0.0;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 2000000; ++i)
+      for (auto &v : x) v = v * a + b;
+    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (2000000.0 * 10 * 8 * 2 / s > best) best = 2000000.0 * 10 * 8 * 2 / s;
+  }
+  double sum = 0.0;
+  for (auto &v : x) sum += v[0];
+  std::printf("%g %g\n", best, sum);
+}
+"""
+
+
+def peak_flops():
+    """Multiplications and additions a second of one core that does nothing else, or None."""
+    with tempfile.TemporaryDirectory() as folder:
+        source = os.path.join(folder, "peak.cpp")
+        with open(source, "w") as file:
+            file.write(PEAK)
+        try:
+            subprocess.run(["g++", "-O3", "-march=native", "-o", source + ".exe", source], check=True,
+                           capture_output=True)
+            return float(subprocess.run([source + ".exe"], check=True, capture_output=True,
+                                        text=True).stdout.split()[0])
+        except (OSError, subprocess.CalledProcessError):
+            return None
+
+
+def lammps(lmp, script, variables, ranks=1):
     """Run a script; returns its output, wall seconds and peak memory in bytes."""
     command = [lmp, "-in", os.path.join(HERE, script), "-log", "none"]
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
     for name, value in variables.items():
         command += ["-var", name, value]
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     start = time.time()
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               env=environment)
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
     if status:
@@ -45,14 +105,67 @@ def lammps(lmp, script, variables):
     return output, time.time() - start, usage.ru_maxrss * 1024
 
 
-def seconds_per_step(output, line):
-    """Seconds per atom and step of the loop or of the pair style."""
+def seconds(output, line):
+    """Seconds per atom and step of the loop or of a part of it."""
     loop = re.search(r"Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms", output)
-    if line == "Loop":
-        seconds = float(loop[1])
-    else:
-        seconds = float(re.search(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", output, re.M)[1])
-    return seconds / int(loop[2]) / int(loop[3])
+    total = loop[1] if line == "Loop" else re.search(rf"^{line}\s*\|\s*\S+\s*\|\s*(\S+)", output, re.M)[1]
+    return float(total) / int(loop[2]) / int(loop[3])
+
+
+def one_round(lmp, level, ranks):
+    """{case: LJ units}, {"unit": seconds}, and the speed-ups on several ranks."""
+    unit = seconds(lammps(lmp, "in.lj", {})[0], "Loop")
+    result = {"unit": unit}
+    steps = str(max(10, 1500000 // (10 * 4**level + 2)))
+    modify = {}
+    for name, (variables, line) in CASES.items():
+        output = lammps(lmp, "in.membrane", {**variables, "level": str(level), "steps": steps})[0]
+        result[name] = seconds(output, line) / unit
+        modify[name] = seconds(output, "Modify") / unit
+        if ranks > 1 and name in SCALING:
+            shared = lammps(lmp, "in.membrane", {**variables, "level": str(level), "steps": steps}, ranks)[0]
+            result[f"{name}: speed-up on {ranks} ranks"] = seconds(output, "Loop") / seconds(shared, "Loop")
+    result[SOLVE] = modify["hd/nve, 3 points"] - modify["hd/nve mass lumped, 3 points"]
+    result[MASK] = 0.5 * result[SOLVE]
+    return result
+
+
+def set_up(lmp, levels, repeat):
+    """Seconds and bytes a point of runs without steps, less those of 162 points."""
+    table = {}
+    for level in [2] + levels:
+        runs = [lammps(lmp, "in.membrane", {"level": str(level), "steps": "0"})[1:] for _ in range(repeat)]
+        table[level] = [statistics.median(column) for column in zip(*runs)]
+    return {level: (table[level][0] - table[2][0], (table[level][1] - table[2][1]) / (10 * 4**level + 2))
+            for level in levels}
+
+
+def plot(rows, set_up_rows, path):
+    try:
+        import matplotlib
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+    except ImportError:
+        print("no plot: install python3-matplotlib")
+        return
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
+    for name in list(CASES) + [SOLVE]:
+        data = [(points, *values) for case, points, *values in rows if case == name]
+        x, mid, low, high = zip(*data)
+        left.errorbar(x, mid, yerr=[[m - l for m, l in zip(mid, low)], [h - m for m, h in zip(mid, high)]],
+                      marker="o", markersize=4, capsize=2, label=name)
+    left.set(xscale="log", xlabel="control points", ylim=(0, None),
+             ylabel="time of a control point and step\nin that of a Lennard-Jones atom")
+    left.axhline(1.0, color="grey", linewidth=0.8, linestyle=":")
+    left.legend(fontsize=7, ncol=2, loc="upper left")
+    left.set_ylim(0, 1.5 * left.get_ylim()[1])
+    x = [points for points, *_ in set_up_rows]
+    right.loglog(x, [max(s, 1e-3) for _, s, _ in set_up_rows], marker="o", label="set-up, seconds")
+    right.loglog(x, [b * p / 2**20 for p, _, b in set_up_rows], marker="s", label="memory, MB")
+    right.set(xlabel="control points")
+    right.legend()
+    figure.savefig(path, dpi=120)
+    print(f"wrote {path}")
 
 
 def main():
@@ -61,48 +174,56 @@ def main():
     parser.add_argument("--lmp", default=os.path.join(HERE, "..", "build", "lmp"))
     parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--levels", default="3,4,5,6,7")
-    parser.add_argument("--out", default="bench.csv")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--out", default="bench")
     options = parser.parse_args()
     levels = [int(level) for level in options.levels.split(",")]
 
-    rows = []
-    print("LJ units per control point: median [smallest, largest]")
-    for name, variables, line in CASES:
-        for level in levels:
-            points = 10 * 4**level + 2
-            ratios, unit_times = [], []
-            for _ in range(options.repeat):
-                unit = seconds_per_step(lammps(options.lmp, "in.lj", {})[0], "Loop")
-                steps = str(max(10, 2000000 // points))
-                output = lammps(options.lmp, "in.membrane",
-                                dict(variables, level=str(level), steps=steps))[0]
-                ratios.append(seconds_per_step(output, line) / unit)
-                unit_times.append(unit)
-            low, mid, high = min(ratios), statistics.median(ratios), max(ratios)
-            print(f"{name:36s} {points:7d} points  {mid:6.3f} [{low:.3f}, {high:.3f}]   "
-                  f"(LJ unit {statistics.median(unit_times) * 1e6:.3f} us)", flush=True)
-            rows.append([name, points, mid, low, high])
-
-    print("\nset-up: seconds and bytes per point of a run without steps, less those of 162 points")
-    base_seconds, base_bytes = None, None
-    for level in [2] + levels:
+    rows, units = [], []
+    print("LJ units a control point and step: median [smallest, largest]", flush=True)
+    for level in levels:
         points = 10 * 4**level + 2
-        runs = [lammps(options.lmp, "in.membrane", {"level": str(level), "steps": "0"})[1:]
-                for _ in range(options.repeat)]
-        seconds, size = (statistics.median(column) for column in zip(*runs))
-        if base_seconds is None:
-            base_seconds, base_bytes = seconds, size
-            continue
-        extra = (size - base_bytes) / points
-        print(f"set-up {points:7d} points  {seconds - base_seconds:7.3f} s  {extra:7.0f} bytes a point",
-              flush=True)
-        rows.append(["set-up seconds", points, seconds - base_seconds, "", ""])
-        rows.append(["bytes a point", points, extra, "", ""])
+        rounds = []
+        for i in range(options.repeat):
+            rounds.append(one_round(options.lmp, level, options.ranks))
+            print(f"\r{points} points, round {i + 1} of {options.repeat}", end="", file=sys.stderr, flush=True)
+        print("\r", end="", file=sys.stderr)
+        units += [r["unit"] for r in rounds]
+        for name in [key for key in rounds[0] if key != "unit"]:
+            values = [r[name] for r in rounds]
+            rows.append([name, points, statistics.median(values), min(values), max(values)])
+            print(f"{points:7d}  {name:38s} {rows[-1][2]:6.3f} [{min(values):.3f}, {max(values):.3f}]",
+                  flush=True)
+    unit = statistics.median(units)
+    print(f"\nLJ unit {unit * 1e6:.3f} us, {min(units) * 1e6:.3f} to {max(units) * 1e6:.3f}")
 
-    with open(options.out, "w", newline="") as table:
+    peak = peak_flops()
+    if peak:
+        for case, points, mid, *_ in rows:
+            if case == "force, 3 points":
+                rate = 2 * 3 * FLOPS / (mid * unit)    # two faces a point, three quadrature points a face
+                print(f"kernel, 3 points, {points:7d}: {rate / 1e9:.0f} Gflop/s, {100 * rate / peak:.0f} % of the "
+                      f"{peak / 1e9:.0f} that one core's fused multiply-adds reach")
+    if len(levels) > 1:
+        print(f"\ncost a point at {10 * 4**levels[-1] + 2} over that at {10 * 4**levels[0] + 2}:")
+        for name in CASES:
+            cost = {points: mid for case, points, mid, *_ in rows if case == name}
+            print(f"  {name:38s} {cost[max(cost)] / cost[min(cost)]:.2f}")
+
+    print("\nset-up")
+    set_up_rows = []
+    for level, (time_taken, size) in set_up(options.lmp, levels, options.repeat).items():
+        points = 10 * 4**level + 2
+        set_up_rows.append((points, time_taken, size))
+        rows += [["set-up seconds", points, time_taken, "", ""], ["bytes a point", points, size, "", ""]]
+        print(f"{points:7d} points  {time_taken:7.3f} s  {size:7.0f} bytes a point", flush=True)
+
+    with open(options.out + ".csv", "w", newline="") as table:
         writer = csv.writer(table)
         writer.writerow(["case", "points", "median", "smallest", "largest"])
         writer.writerows(rows)
+    print(f"wrote {options.out}.csv")
+    plot(rows, set_up_rows, options.out + ".png")
 
 
 if __name__ == "__main__":

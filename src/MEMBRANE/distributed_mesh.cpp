@@ -464,19 +464,25 @@ void DistributedMesh::refresh()
 
 /* ---------------------------------------------------------------------- */
 
-int DistributedMesh::local_neighbor(int i, int neighbor, int face)
+int DistributedMesh::find_neighbor(int i, int neighbor)
 {
   int j = atom->map(tags[neighbor]);
-  if (j >= 0) {
-    j = domain->closest_image(i, j);
-    double d[3];
-    for (int k = 0; k < 3; ++k) d[k] = atom->x[j][k] - atom->x[i][k];
-    const auto moved = nearest_image(domain, d);
-    if (!(moved[0] || moved[1] || moved[2])) return j;
-  }
+  if (j < 0) return -1;
+  j = domain->closest_image(i, j);
+  double d[3];
+  for (int k = 0; k < 3; ++k) d[k] = atom->x[j][k] - atom->x[i][k];
+  const auto moved = nearest_image(domain, d);
+  return moved[0] || moved[1] || moved[2] ? -1 : j;
+}
+
+int DistributedMesh::local_neighbor(int i, int neighbor, int face)
+{
+  const int j = find_neighbor(i, neighbor);
+  if (j >= 0) return j;
   error->one(FLERR,
              "Control point {}: {} needs control point {}, which is beyond the communication cutoff "
-             "{:.6g}; raise it with comm_modify cutoff{}",
+             "{:.6g}; raise it with comm_modify cutoff, or if the mesh of a fluid membrane has lost its "
+             "shape, keep it with regularize in pair_coeff{}",
              atom->tag[i], face_name(face), tags[neighbor], comm->get_comm_cutoff(),
              domain->nonperiodic ? ", unless it left the box, which is not periodic" : "");
   return -1;
@@ -484,12 +490,12 @@ int DistributedMesh::local_neighbor(int i, int neighbor, int face)
 
 /* ---------------------------------------------------------------------- */
 
-std::vector<FaceGroup> DistributedMesh::local_groups(PatchRules &rules)
+std::vector<FaceGroup> DistributedMesh::local_groups(PatchRules &rules,
+                                                     const std::vector<int> &faces)
 {
-  refresh();
   std::vector<FaceGroup> groups;
   try {
-    groups = group_faces(topo, rules, faces_here);
+    groups = group_faces(topo, rules, faces);
   } catch (const MeshError &err) {
     error->one(FLERR, "Membrane mesh: {}", err.what());
   }

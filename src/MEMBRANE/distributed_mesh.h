@@ -84,10 +84,18 @@ class DistributedMesh : protected Pointers {
   const std::vector<int> &owned_faces() const { return faces_here; }
   /// The vertex of an owned atom, or -1.
   int vertex_of_atom(int i) const { return vertices_here[i]; }
-  /// Group this rank's faces for a set of rules; points are local atom indices (owned and ghost).
-  std::vector<Membrane_NS::FaceGroup> local_groups(Membrane_NS::PatchRules &rules);
+  /// Group owned faces for a set of rules; points are local atom indices (owned and ghost).
+  std::vector<Membrane_NS::FaceGroup> local_groups(Membrane_NS::PatchRules &rules,
+                                                   const std::vector<int> &faces);
+  std::vector<Membrane_NS::FaceGroup> local_groups(Membrane_NS::PatchRules &rules)
+  {
+    refresh();
+    return local_groups(rules, faces_here);
+  }
   /// The local index of the image of `neighbor` that is nearest to local atom i; for edges.
   int local_neighbor(int i, int neighbor, int face);
+  /// The same, or -1 if it is beyond the communication cutoff.
+  int find_neighbor(int i, int neighbor);
 
   double memory_usage() const;
 

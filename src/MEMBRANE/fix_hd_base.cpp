@@ -21,9 +21,11 @@
 #include "comm.h"
 #include "distributed_mesh.h"
 #include "error.h"
+#include "face_watch.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "stiffness_probe.h"
 #include "update.h"
 
@@ -41,19 +43,35 @@ static constexpr double MOST_DRIFT = 0.25;
 static constexpr int LANCZOS_STEPS = 6;
 static constexpr int WORTH_CHECKING = 250;
 
+// steps between looks at the faces, so that these cost next to nothing; in between they move little
+static constexpr int FACES_EVERY = 10;
+
 /* ---------------------------------------------------------------------- */
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
-    moved_step(-1), check(true), limit_due(false), limit(0.0)
+    moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0), watching(false),
+    faces(std::make_unique<FaceWatch>(lmp, mass.mesh(), groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
+  vector_flag = global_freq = 1;
+  size_vector = 2;
+  extvector = 0;
 }
+
+FixHDBase::~FixHDBase() = default;
 
 int FixHDBase::modify_param(int narg, char **arg)
 {
-  if (strcmp(arg[0], "check") != 0) return 0;
-  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify check", error);
+  const std::string key = arg[0];
+  if (key != "check" && key != "faces") return 0;
+  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify " + key, error);
+  if (key == "faces") {
+    faces->patience = utils::bnumeric(FLERR, arg[1], false, lmp);
+    if (faces->patience < 0)
+      error->all(FLERR, "Fix {} faces {}: the number of steps must not be negative", style, arg[1]);
+    return 2;
+  }
   check = utils::logical(FLERR, arg[1], false, lmp);
   if (!check) limit = 0.0;
   return 2;
@@ -118,6 +136,17 @@ void FixHDBase::setup(int)
   const bool respa = utils::strmatch(update->integrate_style, "^respa");
   if (respa) limit = 0.0;
   limit_due = check && !respa && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
+  watching = check && !respa && update->whichflag == 1 && update->nsteps > 0;
+  if (watching) faces->begin();
+}
+
+/* ----------------------------------------------------------------------
+   also after reneighbouring, when stencils that have grown too large stop the run with another message
+------------------------------------------------------------------------- */
+
+void FixHDBase::pre_force(int)
+{
+  if (watching) faces->check(update->ntimestep % FACES_EVERY == 0 || neighbor->ago == 0);
 }
 
 /* ----------------------------------------------------------------------
@@ -148,6 +177,13 @@ void FixHDBase::accelerate()
   mass.part().load(atom->f, force_field);
   acceleration.resize(force_field.size());
   mass.matrix().solve(force_field, acceleration);
+  passes = mass.matrix().iterations();
+}
+
+double FixHDBase::compute_vector(int i)
+{
+  if (passes == 0) return 0.0;    // before the first run
+  return i == 0 ? passes : mass.matrix().residual(force_field, acceleration);
 }
 
 void FixHDBase::kick(double step)
@@ -167,21 +203,24 @@ void FixHDBase::drift(double step)
   if (limit_due) find_limit();
 
   MeshPart &part = mass.part();
-  if (moved_step != update->ntimestep) moved.assign(part.owned, Membrane_NS::Vector4{});
-  moved_step = update->ntimestep;
+  const double fastest = most_drift / step, most = fastest * fastest;
   int runaway = -1;
   for (int i = 0; i < part.owned; ++i) {
     const int j = part.atom_of(i);
     double *x = atom->x[j];
     const double *v = atom->v[j];
-    for (int k = 0; k < 3; ++k) {
-      x[k] += step * v[k];
-      moved[i].c[k] += step * v[k];
-    }
-    const double way = step * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(way < most_drift)) runaway = j;
+    for (int k = 0; k < 3; ++k) x[k] += step * v[k];
+    if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most)) runaway = j;
   }
   if (runaway >= 0) report_runaway(atom->tag[runaway]);
+  if (!remembers) return;
+
+  if (moved_step != update->ntimestep) moved.assign(part.owned, Membrane_NS::Vector4{});
+  moved_step = update->ntimestep;
+  for (int i = 0; i < part.owned; ++i) {
+    const double *v = atom->v[part.atom_of(i)];
+    for (int k = 0; k < 3; ++k) moved[i].c[k] += step * v[k];
+  }
 }
 
 // on the rank that sees it: others may be anywhere in their step, so nothing can be computed now
@@ -203,6 +242,7 @@ void FixHDBase::report_runaway(tagint id_of_point)
 
 double FixHDBase::memory_usage()
 {
-  return mass.memory_usage() +
-      sizeof(Membrane_NS::Vector4) * (force_field.capacity() + acceleration.capacity() + moved.capacity());
+  return mass.memory_usage() + faces->memory_usage() +
+      sizeof(Membrane_NS::Vector4) *
+      (force_field.capacity() + acceleration.capacity() + moved.capacity());
 }

@@ -17,16 +17,22 @@
 #include "fix.h"
 #include "hd_mass.h"
 
+#include <memory>
+
 namespace LAMMPS_NS {
 
 /// What all integrators of control points share: the mass matrix, the checks, and M^-1 f.
 class FixHDBase : public Fix {
  public:
   FixHDBase(class LAMMPS *, int, char **);
+  ~FixHDBase() override;
 
   void init() override;
   void setup(int) override;
+  void pre_force(int) override;
   int modify_param(int, char **) override;
+  /// 0: passes over the mesh of the last M^-1 f; 1: its residual |f - M a|/|f|
+  double compute_vector(int) override;
   double memory_usage() override;
 
   /// The fix of this kind that moves atoms of the group, if any. Collective; stops if there are
@@ -34,8 +40,9 @@ class FixHDBase : public Fix {
   static FixHDBase *of_group(class LAMMPS *, int groupbit, const std::string &user);
   double drag_coefficient() const { return mass.drag_coefficient(); }
   const Membrane_NS::MassOperator::Settings &mass_settings() const { return mass.settings; }
-  /// By how much this fix has moved the control points in the present step, as drift() left them; the
-  /// order is that of part().
+  /// From now on, remember by how much drift() moves the control points in a step.
+  void remember_displacement() { remembers = true; }
+  /// By how much it has in the present step; the order is that of part().
   const Membrane_NS::VertexField &displacement() const { return moved; }
   const MeshPart &part() { return mass.part(); }
 
@@ -53,8 +60,11 @@ class FixHDBase : public Fix {
  private:
   double most_drift;
   bigint moved_step;    // of which step `moved` is
-  bool check, limit_due;
+  int passes;           // of the last accelerate()
+  bool remembers, check, limit_due;
   double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
+  bool watching;
+  std::unique_ptr<class FaceWatch> faces;
 
   void check_other_integrators();
   void find_limit();

@@ -31,7 +31,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
-    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0)
+    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1),
+    numbering(-1)
 {
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
   temperature = utils::numeric(FLERR, arg[3], false, lmp);
@@ -61,7 +62,7 @@ FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
 
 int FixHDBrownian::setmask()
 {
-  return INITIAL_INTEGRATE;
+  return INITIAL_INTEGRATE | PRE_FORCE;
 }
 
 void FixHDBrownian::init()
@@ -75,6 +76,7 @@ void FixHDBrownian::init()
 void FixHDBrownian::reset_dt()
 {
   dt = update->dt;
+  next_step = -1;
 }
 
 /* ----------------------------------------------------------------------
@@ -93,8 +95,13 @@ void FixHDBrownian::initial_integrate(int)
   const bigint step = update->ntimestep;
   noise.resize(part.size());
   next_noise.resize(part.size());
-  mass.matrix().sample(0.5 * kT / dt, seed, step, noise);
+  if (next_step == step && numbering == mass.numbering())
+    std::swap(noise, next_noise);
+  else
+    mass.matrix().sample(0.5 * kT / dt, seed, step, noise);
   mass.matrix().sample(0.5 * kT / dt, seed, step + 1, next_noise);
+  next_step = step + 1;
+  numbering = mass.numbering();
 
   // gamma_t is mass over time, as in fix brownian
 
@@ -109,4 +116,5 @@ void FixHDBrownian::initial_integrate(int)
 void FixHDBrownian::reset_target(double t_new)
 {
   temperature = t_new;
+  next_step = -1;
 }

@@ -39,6 +39,7 @@ class FixHDBrownian : public FixHDBase {
   double temperature, gamma_t, dt;
   bigint seed;
   Membrane_NS::VertexField noise, next_noise;
+  bigint next_step, numbering;    // what next_noise is for
 };
 
 }    // namespace LAMMPS_NS

@@ -79,7 +79,7 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
 
 int FixHDLangevin::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE;
+  return INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE;
 }
 
 void FixHDLangevin::init()

@@ -42,12 +42,15 @@ static constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 // with shorter free paths than these, in cells, solvent meets the same partners again and again
 static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
 
+// default modulus in kT that keeps faces from turning over among solvent
+static constexpr double STIFF_MESH = 10.0;
+
 /* ---------------------------------------------------------------------- */
 
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
     cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
-    overlap(true), set_velocities(true), ghosts(false), bounces(0), level(0), search(0.0),
+    set_velocities(true), ghosts(false), bounces(0), search(0.0),
     solvent(lmp, igroup), streaming(lmp), have_obstacle(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     clear_forces(false), values{}, carried{}, sampled(-1)
@@ -67,6 +70,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
   SurfaceObstacle::Settings settings;
   settings.membranes = membrane;
   settings.no_slip = noslip;
+  settings.control = control;
   settings.most_bounces = bounces;
   settings.spacing = search;
   settings.stray = cell_settings.size;
@@ -143,8 +147,6 @@ void FixSRDMesh::parse(int narg, char **arg)
       noslip = choice({"slip", "noslip"}) == 1;
     } else if (key == "impulse") {
       control = choice({"surface", "control"}) == 1;
-    } else if (key == "overlap") {
-      overlap = utils::logical(FLERR, word, false, lmp);
     } else if (key == "inside") {
       inside = static_cast<Inside>(choice({"error", "warn", "ignore"}));
     } else if (key == "bounce") {
@@ -152,10 +154,6 @@ void FixSRDMesh::parse(int narg, char **arg)
       if (bounces < 0) error->all(FLERR, "Fix srd/mesh bounce {} must not be negative", word);
     } else if (key == "search") {
       search = positive("search", word);
-    } else if (key == "level") {
-      level = utils::inumeric(FLERR, word, false, lmp);
-      if (level < 0 || level > 4)
-        error->all(FLERR, "Fix srd/mesh level {} must be between 0 and 4", word);
     } else if (key == "cubic") {
       need(2);
       used = 3;
@@ -187,7 +185,7 @@ void FixSRDMesh::parse(int narg, char **arg)
     } else
       error->all(FLERR,
                  "Unknown fix srd/mesh keyword {}; known are: lamda, angle, method, collision, "
-                 "impulse, overlap, inside, bounce, search, level, cubic, shift, tstat, velocity, "
+                 "impulse, inside, bounce, search, cubic, shift, tstat, velocity, "
                  "ghosts, wall, wall/velocity",
                  key);
     iarg += used;
@@ -215,7 +213,7 @@ void FixSRDMesh::parse_wall_velocity(char **arg)
 int FixSRDMesh::setmask()
 {
   return INITIAL_INTEGRATE | POST_INTEGRATE | PRE_NEIGHBOR | PRE_FORCE | MIN_PRE_FORCE |
-      FINAL_INTEGRATE | PRE_EXCHANGE | POST_RUN;
+      FINAL_INTEGRATE | PRE_EXCHANGE | END_OF_STEP | POST_RUN;
 }
 
 double FixSRDMesh::kT() const
@@ -242,9 +240,30 @@ void FixSRDMesh::init()
     if (group->count(membrane) > 0) {
       mass->init();
       obstacle->init();
+      keep_meshes_in_shape();
     }
   }
   prepare_cells();
+}
+
+/* ----------------------------------------------------------------------
+   impulses shake control points along the fluid membrane, too, where nothing holds them: within a few
+   hundred steps faces would turn over
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::keep_meshes_in_shape()
+{
+  int dim;
+  Pair *helfrich = force->pair_match("helfrich", 1);
+  auto *regularize =
+      helfrich ? static_cast<double *>(helfrich->extract("default_regularize", dim)) : nullptr;
+  if (!regularize || mass->count() == 0) return;
+  *regularize = STIFF_MESH * force->boltz * temperature;
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
+                   "has none\n",
+                   *regularize, STIFF_MESH);
 }
 
 /* ----------------------------------------------------------------------
@@ -500,9 +519,20 @@ void FixSRDMesh::pre_neighbor()
 void FixSRDMesh::pre_force(int)
 {
   if (have_forces) zero_forces();
-  if (!is_due()) return;
+}
+
+/* ----------------------------------------------------------------------
+   Positions and velocities of control points are of the same time here and nowhere else in a step.
+   Were velocities of the middle of a step changed, forces of its end would do work that no later
+   step gives back: energy would drift as dt^2.
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::end_of_step()
+{
   if (domain->box_change) cells->grid.setup(cell_settings.size);
+  if (have_obstacle) obstacle->join_cells(*cells, update->ntimestep);
   cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
+  if (have_obstacle) obstacle->leave_cells(*cells);
 }
 
 void FixSRDMesh::min_pre_force(int)
@@ -594,6 +624,7 @@ const int *FixSRDMesh::sides()
   side.resize(atom->nlocal);
   for (int i = solvent.first(); i < solvent.last(); ++i)
     if (solvent.has(i)) side[i] = regions.parity(regions.region[i], atom->image[i]);
+  for (int k = 0; k < 3; ++k) cells->flips[k] = regions.flips(k);
   return side.data();
 }
 

@@ -33,8 +33,8 @@ FixStyle(srd/mesh,FixSRDMesh);
 namespace LAMMPS_NS {
 
 /** Solvent of stochastic rotation dynamics around membranes. A step: half a kick if other fixes
-    exert forces on the solvent, streaming once integrators have moved the membranes, every N steps
-    a collision in cells once atoms are where LAMMPS wants them, and half a kick. */
+    exert forces on the solvent, streaming once integrators have moved the membranes, half a kick, and
+    every N steps a collision in cells. */
 class FixSRDMesh : public Fix {
  public:
   FixSRDMesh(class LAMMPS *, int, char **);
@@ -52,6 +52,7 @@ class FixSRDMesh : public Fix {
   void pre_force(int) override;
   void min_pre_force(int) override;
   void final_integrate() override;
+  void end_of_step() override;
   void post_run() override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
@@ -72,8 +73,8 @@ class FixSRDMesh : public Fix {
   bool cubic_error;
   double cubic_tolerance;
   enum class Inside { ERROR, WARN, IGNORE } inside;
-  bool noslip, control, overlap, set_velocities, ghosts;
-  int bounces, level;
+  bool noslip, control, set_velocities, ghosts;
+  int bounces;
   double search;
   SRDCells::Settings cell_settings;
 
@@ -96,7 +97,7 @@ class FixSRDMesh : public Fix {
 
   enum {
     TEMPERATURE, COLLISIONS, CROSSINGS, RESCUES, MOMENTUM, INSIDE = MOMENTUM + 3, OUTSIDE,
-    VISCOSITY, TEMPERATURE_IN, TEMPERATURE_OUT, HANDED, FREE_PATH = HANDED + 3, PRESSURE,
+    VISCOSITY, TEMPERATURE_IN, TEMPERATURE_OUT, HANDED, FREE_PATH = HANDED + 3,
     WALLS, NUM_VALUES = WALLS + 3
   };
   double values[NUM_VALUES], carried[NUM_VALUES];    // now; up to the restart file
@@ -105,6 +106,7 @@ class FixSRDMesh : public Fix {
   void parse(int, char **);
   void parse_wall_velocity(char **);
   void check_group();
+  void keep_meshes_in_shape();
   void find_forces();
   void prepare_cells();
   void report();

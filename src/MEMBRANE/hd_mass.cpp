@@ -33,7 +33,7 @@ using Membrane_NS::VertexField;
 
 HDMass::HDMass(LAMMPS *lmp, int igroup, std::string user) :
     Pointers(lmp), igroup(igroup), groupbit(group->bitmask[igroup]), user(std::move(user)),
-    surface(&DistributedMesh::of(lmp, this->user)), epoch(-1),
+    surface(&DistributedMesh::of(lmp, this->user)), epoch(-1), renumbered(0),
     npoints(0), drag(0.0)
 {
 }
@@ -126,8 +126,11 @@ void HDMass::refresh()
 {
   surface->refresh();
   if (epoch == surface->epoch()) return;
+  const bool first = epoch < 0;
   epoch = surface->epoch();
+  if (!first && vertices->follow(*surface)) return;
 
+  ++renumbered;
   static constexpr int RINGS[] = {1, 3, 0};    // vertex, consistent, lumped
   vertices = std::make_unique<MeshPart>(lmp, *surface, groupbit, RINGS[(int) settings.kind]);
 

@@ -46,6 +46,8 @@ class HDMass : protected Pointers {
   class DistributedMesh &mesh() { return *surface; }
   MeshPart &part() { return *vertices; }
   Membrane_NS::MassOperator &matrix() { return *mass; }
+  /// Differs after a refresh() that numbered the vertices of the part anew.
+  bigint numbering() const { return renumbered; }
   /// Control points of the group, on all ranks.
   bigint count() const { return npoints; }
   /// v^T M v of the atoms' velocities, xx yy zz xy xz yz; summed over ranks.
@@ -58,7 +60,7 @@ class HDMass : protected Pointers {
   class DistributedMesh *surface;
   std::unique_ptr<MeshPart> vertices;
   std::unique_ptr<Membrane_NS::MassOperator> mass;
-  bigint epoch, npoints;
+  bigint epoch, renumbered, npoints;
   double drag;
 
   void check_group(bool other_atoms);

@@ -97,7 +97,7 @@ void CollisionEvents::reset()
 
 /* ---------------------------------------------------------------------- */
 
-CollisionEvents::Outcome CollisionEvents::run(const std::vector<VertexImpulse> &from_outside)
+CollisionEvents::Outcome CollisionEvents::run(const std::vector<SurfaceImpulse> &from_outside)
 {
   if (!indexed_) index_pairs();
   reset();
@@ -113,9 +113,8 @@ CollisionEvents::Outcome CollisionEvents::run(const std::vector<VertexImpulse> &
     const Event event = queue_.top();
     queue_.pop();
     if (event.point < 0) {
-      const VertexImpulse &impulse = from_outside[event.version];
-      if (!turn_vertices(impulse)) outcome = Outcome::VERTEX_STRAYED;
-      foresee_around(impulse.vertex, event.time);
+      if (!turn_vertices(from_outside[event.version])) outcome = Outcome::VERTEX_STRAYED;
+      foresee_around(event.time);
     } else if (event.version == points_[event.point].version) {
       if (event.pair < 0)
         hit_wall(event, outcome);
@@ -212,21 +211,19 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
   // a point that grazes approaches by rounding only, if at all
 
   if (!give_up && pair.side * approach < 0.0) {
-    const Vector3d impulse =
-        collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
-                          inverse_masses, settings_.no_slip || point.bounces > settings_.most_bounces);
-    point.now.turn(now, impulse * point.inverse_mass);
+    SurfaceImpulse done = {now, point.tag, triangle.vertex, b, Vector3d::Zero(), -1};
+    if (!settings_.control || !hit_control(pair, point, done))
+      done.impulse =
+          -collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
+                             inverse_masses, settings_.no_slip || point.bounces > settings_.most_bounces);
+    point.now.turn(now, -point.inverse_mass * done.impulse);
     if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
-    impulse_ -= impulse;
-    normal_impulse_[pair.side > 0 ? 0 : 1] += pair.side * impulse.dot(pair.hit.normal);
+    impulse_ += done.impulse;
+    normal_impulse_[pair.side > 0 ? 0 : 1] -= pair.side * done.impulse.dot(pair.hit.normal);
 
-    VertexImpulse done = {now, point.tag, triangle.vertex, {}};
-    for (int k = 0; k < 3; ++k) done.change[k] = -b[k] * inverse_masses[k] * impulse;
     impulses_.push_back(done);
-    if (inverse_masses[0] + inverse_masses[1] + inverse_masses[2] > 0.0) {
-      if (!turn_vertices(done)) outcome = Outcome::VERTEX_STRAYED;
-      foresee_around(triangle.vertex, now);
-    }
+    if (!turn_vertices(done)) outcome = Outcome::VERTEX_STRAYED;
+    foresee_around(now);
   }
   for (int p = point.first_pair; p < point.last_pair; ++p)
     if (give_up)
@@ -236,32 +233,79 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
   schedule(i, now);
 }
 
+/* ----------------------------------------------------------------------
+   Eq. 44 of the theory: alpha = 2 (v - qdot_i).n / (1/m + (M^-1)_ii) on the nearest control point,
+   with qdot_i = sum l_a w_a and (M^-1)_ii = sum l_a^2/d_a. Returns whether that makes the point leave
+   the surface.
+------------------------------------------------------------------------- */
+
+bool CollisionEvents::hit_control(const Pair &pair, const Point &point, SurfaceImpulse &done)
+{
+  const auto &b = pair.hit.weight;
+  const Vector3d &n = pair.hit.normal;
+  const int nearest = done.vertex[std::max_element(b.begin(), b.end()) - b.begin()];
+  if ((*vertices_)[nearest].inverse_mass == 0.0) return false;
+  const ControlWeights::Row &row = settings_.control->row(nearest);
+
+  Vector3d velocity = Vector3d::Zero();
+  double inverse = point.inverse_mass;
+  std::array<double, 3> turns = {0.0, 0.0, 0.0};
+  for (size_t i = 0; i < row.vertex.size(); ++i) {
+    const int a = row.vertex[i];
+    const double l = row.weight[i], inverse_mass = (*vertices_)[a].inverse_mass;
+    velocity += l * paths_[a].velocity;
+    inverse += l * l * inverse_mass;
+    for (int k = 0; k < 3; ++k)
+      if (done.vertex[k] == a) turns[k] = l * inverse_mass;
+  }
+  const double alpha = 2.0 * (point.now.velocity - velocity).dot(n) / inverse;
+
+  double after = point.now.velocity.dot(n) - alpha * point.inverse_mass;
+  for (int k = 0; k < 3; ++k)
+    after -= b[k] * (paths_[done.vertex[k]].velocity.dot(n) + alpha * turns[k]);
+  if (!(pair.side * after > 0.0)) return false;
+  done.impulse = alpha * n;
+  done.control = nearest;
+  return true;
+}
+
 // returns whether vertices stay where points were looked for
 
-bool CollisionEvents::turn_vertices(const VertexImpulse &impulse)
+bool CollisionEvents::turn_vertices(const SurfaceImpulse &impulse)
 {
   bool near = true;
-  for (int k = 0; k < 3; ++k) {
-    const int v = impulse.vertex[k];
-    const double inverse_mass = (*vertices_)[v].inverse_mass;
-    if (inverse_mass == 0.0) continue;
-    Change &change = changes_[v];
-    if (!is_touched_[v]) touched_.push_back(v);
-    is_touched_[v] = 1;
-    paths_[v].turn(impulse.time, impulse.change[k]);
-    change.velocity += impulse.change[k];
-    change.position += impulse.change[k] * (duration_ - impulse.time);
-    if (!(change.position.norm() <= slack_)) near = false;
+  turned_.clear();
+  if (impulse.control < 0) {
+    for (int k = 0; k < 3; ++k)
+      near &= turn_vertex(impulse.vertex[k], impulse.time, impulse.weight[k] * impulse.impulse);
+    return near;
   }
+  const ControlWeights::Row &row = settings_.control->row(impulse.control);
+  for (size_t i = 0; i < row.vertex.size(); ++i)
+    near &= turn_vertex(row.vertex[i], impulse.time, row.weight[i] * impulse.impulse);
   return near;
 }
 
-void CollisionEvents::foresee_around(const std::array<int, 3> &vertices, double now)
+bool CollisionEvents::turn_vertex(int v, double time, const Vector3d &momentum)
+{
+  const double inverse_mass = (*vertices_)[v].inverse_mass;
+  if (inverse_mass == 0.0) return true;
+  if (!is_touched_[v]) touched_.push_back(v);
+  is_touched_[v] = 1;
+  turned_.push_back(v);
+  const Vector3d turn = inverse_mass * momentum;
+  paths_[v].turn(time, turn);
+  changes_[v].velocity += turn;
+  changes_[v].position += turn * (duration_ - time);
+  return changes_[v].position.norm() <= slack_;
+}
+
+void CollisionEvents::foresee_around(double now)
 {
   ++clock_;
   dirty_.clear();
   const size_t num_pairs = pairs_.size();
-  for (int v : vertices)
+  for (int v : turned_)
     for (int j = vertex_pairs_start_[v]; j < vertex_pairs_start_[v + 1]; ++j) {
       const int p = vertex_pairs_[j], point = pairs_[p].point;
       if (seen_[p] == clock_) continue;

@@ -35,17 +35,33 @@ struct SurfaceTriangle {
   std::array<Eigen::Vector3d, 3> shift;    ///< from the vertices to the corners
 };
 
-/// What a collision did to the surface.
-struct VertexImpulse {
+/// An impulse that the surface received.
+struct SurfaceImpulse {
   double time;
-  int64_t tag;                                ///< of the point
-  std::array<int, 3> vertex;
-  std::array<Eigen::Vector3d, 3> change;      ///< of the vertices' velocities
+  int64_t tag;                      ///< of the point that it came from
+  std::array<int, 3> vertex;        ///< of the triangle
+  std::array<double, 3> weight;     ///< barycentric, of the place where it was hit
+  Eigen::Vector3d impulse;
+  int control;                      ///< the control point that took it, or -1: the three vertices
 
-  bool operator==(const VertexImpulse &b) const
+  bool operator==(const SurfaceImpulse &b) const
   {
-    return time == b.time && tag == b.tag && vertex == b.vertex && change == b.change;
+    return time == b.time && tag == b.tag && vertex == b.vertex && weight == b.weight &&
+        impulse == b.impulse && control == b.control;
   }
+};
+
+/** The velocity of a control point is a mean of the velocities of many vertices, qdot_j = sum_a l_a w_a
+    with the row l of the inverse limit mask, L^-1. An impulse J on it changes w_a by l_a J/d_a. */
+class ControlWeights {
+ public:
+  virtual ~ControlWeights() = default;
+  struct Row {
+    std::vector<int> vertex;
+    std::vector<double> weight;    ///< sums to 1
+  };
+  /// Valid until the next call.
+  virtual const Row &row(int control_point) = 0;
 };
 
 /** All collisions of one time step between points and a surface, in the order of time.
@@ -62,6 +78,10 @@ class CollisionEvents {
  public:
   struct Settings {
     bool no_slip = false;
+    /** If given, impulses act on the control point of the nearest corner (Eq. 44 of the theory): they
+        are normal to the surface whatever no_slip says, and angular momentum is not kept. Where the
+        point would not leave the surface, the impulse acts on the surface after all. */
+    ControlWeights *control = nullptr;
     double contact = 1.0e-10;    ///< see TriangleCollision
     /// A point that bounces this often in one step is sent back where it came from, and after as
     /// many again left alone.
@@ -93,7 +113,7 @@ class CollisionEvents {
     POINT_STRAYED,     ///< a point came further than its reach: pairs are missing
     VERTEX_STRAYED     ///< a vertex did
   };
-  Outcome run(const std::vector<VertexImpulse> &from_outside = {});
+  Outcome run(const std::vector<SurfaceImpulse> &from_outside = {});
 
   // === Results at the end of the step
 
@@ -104,7 +124,7 @@ class CollisionEvents {
   /// Points that were left alone because they bounced too often.
   int abandoned() const { return abandoned_; }
   /// What the points added here did to the surface, in the order of time.
-  const std::vector<VertexImpulse> &impulses() const { return impulses_; }
+  const std::vector<SurfaceImpulse> &impulses() const { return impulses_; }
 
   struct Change {
     Eigen::Vector3d velocity, position;
@@ -163,7 +183,8 @@ class CollisionEvents {
   std::priority_queue<Event> queue_;
   BoxWalls walls_;
   bool have_walls_ = false;
-  std::vector<VertexImpulse> impulses_;
+  std::vector<SurfaceImpulse> impulses_;
+  std::vector<int> turned_;      // vertices of the last impulse
   std::array<double, 2> normal_impulse_ = {};
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   int abandoned_ = 0;
@@ -175,8 +196,10 @@ class CollisionEvents {
   void collide(const Event &event, Outcome &outcome);
   void hit_wall(const Event &event, Outcome &outcome);
   bool in_reach(const Point &point) const;
-  bool turn_vertices(const VertexImpulse &impulse);
-  void foresee_around(const std::array<int, 3> &vertices, double now);
+  bool hit_control(const Pair &pair, const Point &point, SurfaceImpulse &done);
+  bool turn_vertices(const SurfaceImpulse &impulse);
+  bool turn_vertex(int v, double time, const Eigen::Vector3d &momentum);
+  void foresee_around(double now);
 };
 
 }    // namespace Membrane_NS

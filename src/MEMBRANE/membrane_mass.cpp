@@ -62,23 +62,80 @@ static std::unordered_map<int, int> local_numbers(const VertexPart &part)
 }
 
 /* ----------------------------------------------------------------------
+   breadth first from the vertices next to the halo; without a halo, and for what cannot be reached
+   from it, from the lowest vertex left
+------------------------------------------------------------------------- */
+
+void VertexPart::order(const Topology &topology)
+{
+  std::vector<char> waiting(topology.num_vertices(), 0);
+  std::vector<int> lowest(vertices.begin(), vertices.begin() + owned), sorted;
+  std::sort(lowest.begin(), lowest.end());
+  for (int v : lowest) waiting[v] = 1;
+  auto visit = [&](int v) {
+    if (!waiting[v]) return;
+    waiting[v] = 0;
+    sorted.push_back(v);
+  };
+
+  const std::vector<char> mine(waiting);
+  layers.assign(1, 0);
+  for (int v : lowest)
+    for (int w : topology.ring(v))
+      if (!mine[w]) visit(v);
+  auto seed = lowest.begin();
+  while ((int) sorted.size() < owned || layers.back() < owned) {
+    if (layers.back() == (int) sorted.size()) {
+      while (!waiting[*seed]) ++seed;
+      visit(*seed);
+    }
+    const int first = layers.back(), last = static_cast<int>(sorted.size());
+    layers.push_back(last);
+    for (int i = first; i < last; ++i)
+      for (int w : topology.ring(sorted[i])) visit(w);
+  }
+  std::copy(sorted.begin(), sorted.end(), vertices.begin());
+}
+
+/* ----------------------------------------------------------------------
    VERTEX
 ------------------------------------------------------------------------- */
+
+double Membrane_NS::limit_mask_lowest(const Topology &topology)
+{
+  std::map<Valences, double> smallest;
+  double lowest = 1.0;
+  for (const Face &face : topology.faces()) {
+    Valences n;
+    for (int k = 0; k < 3; ++k) n[k] = topology.valence(face[k]);
+    std::sort(n.begin(), n.end());
+    const auto [found, added] = smallest.emplace(n, 1.0);
+    if (!added) continue;
+    Eigen::Matrix3d s = Eigen::Matrix3d::Constant(0.5), inverse_e = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const double c = limit_mask_centre(n[k]);
+      s(k, k) = c / (1.0 - c);
+      inverse_e(k, k) = 1.0 / (1.0 - c);
+    }
+    found->second =
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(s, inverse_e).eigenvalues()[0];
+    lowest = std::min(lowest, found->second);
+  }
+  return lowest;
+}
 
 void MassOperator::build_rings(const Topology &topology)
 {
   const auto local = local_numbers(part_);
   ring_start_.assign(1, 0);
-  for (int i = 0; i < part_.size(); ++i) {
+  for (int i = 0; i < part_.owned; ++i) {
     const int v = part_.vertices[i], n = topology.valence(v);
     centre_.push_back(limit_mask_centre(n));
     spoke_.push_back((1.0 - centre_.back()) / n);
-    if (i >= part_.owned) continue;
     for (int w : topology.ring(v)) ring_.push_back(local.at(w));
     ring_start_.push_back(static_cast<int>(ring_.size()));
   }
-  for (int v = 0; v < topology.num_vertices(); ++v)
-    lowest_ = std::min(lowest_, 0.5 * (3.0 * limit_mask_centre(topology.valence(v)) - 1.0));
+  lowest_ = limit_mask_lowest(topology);
 
   // Chebyshev's error bound: 2 rate^k
 
@@ -86,54 +143,100 @@ void MassOperator::build_rings(const Topology &topology)
   passes_ = std::max(1, (int) std::ceil(std::log(0.5 * settings_.tolerance) / std::log(rate)));
 }
 
+namespace {
+
+// the four numbers of a vertex, as one value of the compiler's vector extension
+typedef double Quad __attribute__((vector_size(sizeof(Vector4)), may_alias));
+
+inline const Quad &quad(const Vector4 &v) { return reinterpret_cast<const Quad &>(v); }
+inline Quad &quad(Vector4 &v) { return reinterpret_cast<Quad &>(v); }
+
+// sum over a ring; nearly all have six vertices
+inline Quad ring_sum(const int *ring, int n, const Vector4 *x)
+{
+  if (n == 6)
+    return (quad(x[ring[0]]) + quad(x[ring[1]])) + (quad(x[ring[2]]) + quad(x[ring[3]])) +
+        (quad(x[ring[4]]) + quad(x[ring[5]]));
+  Quad sum = {};
+  for (int j = 0; j < n; ++j) sum += quad(x[ring[j]]);
+  return sum;
+}
+
+}    // namespace
+
 // y = L x on owned vertices
 
 void MassOperator::apply_mask(VertexField &x, VertexField &y)
 {
   part_.fill_halo(x);
   for (int i = 0; i < part_.owned; ++i) {
-    Vector4 sum = {};
-    for (int j = ring_start_[i]; j < ring_start_[i + 1]; ++j)
-      for (int k = 0; k < 4; ++k) sum.c[k] += x[ring_[j]].c[k];
-    for (int k = 0; k < 4; ++k) y[i].c[k] = centre_[i] * x[i].c[k] + spoke_[i] * sum.c[k];
+    const int start = ring_start_[i], n = ring_start_[i + 1] - start;
+    quad(y[i]) = centre_[i] * quad(x[i]) + spoke_[i] * ring_sum(&ring_[start], n, x.data());
   }
 }
 
 /* ----------------------------------------------------------------------
-   Chebyshev iteration for L x = b [Y. Saad, Iterative Methods for Sparse Linear Systems, alg. 12.1],
-   one pass over the mesh per iteration: residual, solution and next step together
+   Chebyshev's semi-iterative method for L x = b [G. Golub and C. Van Loan, Matrix Computations,
+   4th ed., 11.2.8]: x_k+1 = x_k-1 + omega_k+1 (x_k - x_k-1 + (b - L x_k)/theta). It keeps two iterates
+   only, and the new one takes the place of the one before last.
+
+   On one rank several passes follow one another through the layers of the mesh, each a layer
+   behind the last, so that a vertex is in the cache for all of them. On several ranks the halo travels
+   while the inner vertices are done.
 ------------------------------------------------------------------------- */
+
+void MassOperator::chebyshev_pass(int first, int last, double omega, const VertexField &b,
+                                  const VertexField &x, VertexField &y) const
+{
+  const double scale = 2.0 * omega / (1.0 + lowest_);
+  const Vector4 *now = x.data(), *rhs = b.data();
+  const int *starts = ring_start_.data(), *ring = ring_.data();
+  const double *c = centre_.data(), *e = spoke_.data();
+  Vector4 *out = y.data();
+  for (int i = first; i < last; ++i) {
+    const Quad sum = ring_sum(ring + starts[i], starts[i + 1] - starts[i], now);
+    const Quad before = quad(out[i]), here = quad(now[i]);
+    quad(out[i]) = before + omega * (here - before) +
+        scale * (quad(rhs[i]) - c[i] * here - e[i] * sum);
+  }
+}
 
 void MassOperator::solve_mask(const VertexField &b, VertexField &x)
 {
-  const double theta = 0.5 * (1.0 + lowest_), delta = 0.5 * (1.0 - lowest_);
-  const double sigma = theta / delta;
-  double rho = 1.0 / sigma;
-  for (auto *field : {&residual_, &step_, &next_}) field->resize(part_.size());
+  constexpr int TOGETHER = 8;    // passes: their layers fit into a second-level cache
+  const int n = part_.owned;
+  const double theta = 0.5 * (1.0 + lowest_), sigma = theta / (0.5 * (1.0 - lowest_));
+  previous_.resize(part_.size());
+  x.resize(part_.size());
 
-  for (int i = 0; i < part_.owned; ++i)
-    for (int k = 0; k < 4; ++k) {
-      residual_[i].c[k] = b[i].c[k];
-      step_[i].c[k] = b[i].c[k] / theta;
-      x[i].c[k] = 0.0;
+  // the iterates take turns in two fields, such that the last is x
+
+  VertexField *field[2] = {&x, &previous_};
+  if (passes_ % 2) std::swap(field[0], field[1]);
+  for (int i = 0; i < n; ++i) {
+    quad((*field[0])[i]) = Quad{};
+    quad((*field[1])[i]) = quad(b[i]) / theta;
+  }
+  std::vector<double> omega(passes_, 2.0);
+  for (int k = 1; k < passes_; ++k) omega[k] = 1.0 / (1.0 - 0.25 * omega[k - 1] / (sigma * sigma));
+
+  if (part_.size() > n) {
+    for (int k = 1; k < passes_; ++k) {
+      VertexField &now = *field[k % 2], &next = *field[(k + 1) % 2];
+      part_.begin_halo(now);
+      chebyshev_pass(part_.layers[1], n, omega[k], b, now, next);
+      part_.end_halo(now);
+      chebyshev_pass(0, part_.layers[1], omega[k], b, now, next);
     }
-  for (int pass = 0; pass < passes_; ++pass) {
-    part_.fill_halo(step_);
-    const double rho_next = 1.0 / (2.0 * sigma - rho);
-    const double keep = rho_next * rho, add = 2.0 * rho_next / delta;
-    rho = rho_next;
-    for (int i = 0; i < part_.owned; ++i) {
-      Vector4 sum = {};
-      for (int j = ring_start_[i]; j < ring_start_[i + 1]; ++j)
-        for (int k = 0; k < 4; ++k) sum.c[k] += step_[ring_[j]].c[k];
-      for (int k = 0; k < 4; ++k) {
-        const double d = step_[i].c[k];
-        x[i].c[k] += d;
-        residual_[i].c[k] -= centre_[i] * d + spoke_[i] * sum.c[k];
-        next_[i].c[k] = keep * d + add * residual_[i].c[k];
-      }
+  } else {
+    const int nlayers = static_cast<int>(part_.layers.size()) - 1;
+    for (int k = 1; k < passes_; k += TOGETHER) {
+      const int passes = std::min(TOGETHER, passes_ - k);
+      for (int front = 0; front < nlayers + passes - 1; ++front)
+        for (int j = std::max(0, front - nlayers + 1); j < std::min(passes, front + 1); ++j)
+          chebyshev_pass(part_.layers[front - j], part_.layers[front - j + 1], omega[k + j], b,
+                         *field[(k + j) % 2], *field[(k + j + 1) % 2]);
     }
-    std::swap(step_, next_);
   }
   iterations_ = passes_;
 }
@@ -330,11 +433,11 @@ void MassOperator::multiply(const VertexField &v, VertexField &p)
 
   // L^T D L v, with L^T x = (1/e) L (e x)
 
-  VertexField momentum(part_.size());
-  apply_mask(work_, momentum);
+  scratch_.resize(part_.size());
+  apply_mask(work_, scratch_);
   for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 4; ++k) momentum[i].c[k] *= mass_[i] * spoke_[i];
-  apply_mask(momentum, p);
+    for (int k = 0; k < 4; ++k) scratch_[i].c[k] *= mass_[i] * spoke_[i];
+  apply_mask(scratch_, p);
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 4; ++k) p[i].c[k] /= spoke_[i];
 }
@@ -372,9 +475,9 @@ void MassOperator::sample(double kT, uint64_t seed, uint64_t step, VertexField &
   const CounterRandom random(seed, step);
   const int n = part_.owned;
   const double root = std::sqrt(kT);
-  VertexField z(part_.size(), Vector4{});
 
   if (settings_.kind == MassKind::CONSISTENT) {
+    scratch_.assign(part_.size(), Vector4{});
     std::vector<std::array<double, 4>> normal;
     for (const FaceNoise &face : noise_) {
       const int columns = static_cast<int>(face.root->cols());
@@ -383,52 +486,54 @@ void MassOperator::sample(double kT, uint64_t seed, uint64_t step, VertexField &
       for (auto [i, row] : face.owned)
         for (int j = 0; j < columns; ++j)
           for (int k = 0; k < 3; ++k)
-            z[i].c[k] += root * face.amplitude * (*face.root)(row, j) * normal[j][k];
+            scratch_[i].c[k] += root * face.amplitude * (*face.root)(row, j) * normal[j][k];
     }
-    solve(z, v);
+    solve(scratch_, v);
     return;
   }
 
+  VertexField &w = settings_.kind == MassKind::VERTEX ? scratch_ : v;
+  w.resize(part_.size());
   for (int i = 0; i < n; ++i) {
     const auto normal = random.normals(label_[i]);
-    for (int k = 0; k < 3; ++k) z[i].c[k] = root / std::sqrt(mass_[i]) * normal[k];
+    const double spread = root / std::sqrt(mass_[i]);
+    for (int k = 0; k < 3; ++k) w[i].c[k] = spread * normal[k];
+    w[i].c[3] = 0.0;
   }
-  if (settings_.kind == MassKind::VERTEX) {
-    solve_mask(z, v);
-    return;
-  }
-  std::copy_n(z.begin(), n, v.begin());
+  if (settings_.kind == MassKind::VERTEX) solve_mask(scratch_, v);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void MassOperator::relax(double keep, double kT, uint64_t seed, uint64_t step, VertexField &v)
 {
-  VertexField noise(part_.size());
-  sample((1.0 - keep * keep) * kT, seed, step, noise);
+  kick_.resize(part_.size());
+  sample((1.0 - keep * keep) * kT, seed, step, kick_);
   for (int i = 0; i < part_.owned; ++i)
-    for (int k = 0; k < 3; ++k) v[i].c[k] = keep * v[i].c[k] + noise[i].c[k];
+    for (int k = 0; k < 3; ++k) v[i].c[k] = keep * v[i].c[k] + kick_[i].c[k];
 }
 
 void MassOperator::relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
                          VertexField &v)
 {
   const CounterRandom random(seed, step);
-  VertexField w(v);
-  w.resize(part_.size());
+  scratch_.resize(part_.size());
   if (settings_.kind == MassKind::VERTEX) {
-    work_ = w;
-    apply_mask(work_, w);
-  }
+    work_ = v;
+    work_.resize(part_.size());
+    apply_mask(work_, scratch_);
+  } else
+    std::copy_n(v.begin(), part_.owned, scratch_.begin());
   for (int i = 0; i < part_.owned; ++i) {
     const auto normal = random.normals(label_[i]);
     const double spread = std::sqrt((1.0 - keep[i] * keep[i]) * kT / mass_[i]);
-    for (int k = 0; k < 3; ++k) w[i].c[k] = keep[i] * w[i].c[k] + spread * normal[k];
+    for (int k = 0; k < 3; ++k)
+      scratch_[i].c[k] = keep[i] * scratch_[i].c[k] + spread * normal[k];
   }
   if (settings_.kind == MassKind::VERTEX)
-    solve_mask(w, v);
+    solve_mask(scratch_, v);
   else
-    std::copy_n(w.begin(), part_.owned, v.begin());
+    std::copy_n(scratch_.begin(), part_.owned, v.begin());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -450,8 +555,8 @@ double MassOperator::residual(const VertexField &p, const VertexField &v)
 
 double MassOperator::memory_usage() const
 {
-  return sizeof(Vector4) * (residual_.capacity() + step_.capacity() + next_.capacity() +
-                            work_.capacity()) +
+  return sizeof(Vector4) * (previous_.capacity() + work_.capacity() + scratch_.capacity() +
+                            kick_.capacity()) +
       sizeof(int) * (ring_.capacity() + ring_start_.capacity()) +
       12.0 * rows_.nonZeros();
 }

@@ -44,8 +44,22 @@ class VertexPart {
   int owned = 0;
   int size() const { return static_cast<int>(vertices.size()); }
 
+  /** Where the layers of owned vertices start, and the end of the last: the neighbours of a vertex
+      are in its own layer, the one before or the one after. If there is a halo, the first layer
+      holds all vertices next to it. */
+  std::vector<int> layers;
+  /// Number the owned vertices by layers, in an order that depends on which they are alone.
+  void order(const Topology &topology);
+
   /// Collective: copy the values of owned vertices to where they are halo.
-  virtual void fill_halo(VertexField &) {}
+  void fill_halo(VertexField &field)
+  {
+    begin_halo(field);
+    end_halo(field);
+  }
+  /// The same in two halves; between them neither owned nor halo values may change.
+  virtual void begin_halo(VertexField &) {}
+  virtual void end_halo(VertexField &) {}
   /// Collective: the sum over all ranks.
   virtual void sum(double *, int) {}
   /// Collective: a field on all vertices of the topology, from the owned parts of all ranks.
@@ -64,8 +78,8 @@ enum class MassKind {
 
     VERTEX, with the limit mask r = L q, row i: c_i on i and (1 - c_i)/n_i =: e_i on its n_i
     neighbours, and D = diag(vertex masses). L = diag(e) S with S symmetric and positive definite
-    on every mesh without boundary, so L is similar to a symmetric matrix with its spectrum within
-    [min_i (3 c_i - 1)/2, 1], and Chebyshev's iteration solves L x = b in a number of passes
+    on every mesh without boundary, so L is similar to a symmetric matrix with a positive spectrum
+    (bounds: limit_mask_lowest()), and Chebyshev's iteration solves L x = b in a number of passes
     known beforehand, without inner products. L^T x = b is L (e x) = e b.
 
     CONSISTENT: M_ij = sum over faces of 2 m_f integral phi_i phi_j du dv, with m_f the sum over the
@@ -107,9 +121,9 @@ class MassOperator {
 
   // === The limit mask L (VERTEX)
 
-  /// y = L x: the masses' positions or velocities from those of control points. Fills the halo of x.
+  /// y = L x: limit positions of control points, velocities of the masses. Fills the halo of x.
   void apply_mask(VertexField &x, VertexField &y);
-  /// L x = b, to the tolerance of the settings
+  /// x = L^-1 b, to the tolerance of the settings.
   void solve_mask(const VertexField &b, VertexField &x);
   /// The entries of L at an owned vertex and at each of its neighbours.
   double mask_centre(int i) const { return centre_[i]; }
@@ -131,13 +145,14 @@ class MassOperator {
   std::vector<double> mass_;    // of owned vertices
   std::vector<uint64_t> label_;
   int iterations_ = 0;
+  VertexField work_, scratch_, kick_;
 
-  // VERTEX: rings of owned vertices in local numbers; c and e of all local vertices
+  // VERTEX: rings of owned vertices in local numbers; c and e of owned vertices
   std::vector<int> ring_start_, ring_;
   std::vector<double> centre_, spoke_;
   double lowest_ = 1.0;
   int passes_ = 0;
-  VertexField residual_, step_, next_, work_;
+  VertexField previous_;
 
   // CONSISTENT: rows of owned vertices, columns in local numbers
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
@@ -155,9 +170,18 @@ class MassOperator {
   void build_rings(const Topology &topology);
   void build_rows(const Topology &topology, const std::vector<double> &masses,
                   const std::vector<uint64_t> &labels);
+  void chebyshev_pass(int first, int last, double omega, const VertexField &b,
+                      const VertexField &x, VertexField &y) const;
   void solve_direct(const VertexField &p, VertexField &v);
   void conjugate_gradients(const VertexField &p, VertexField &v);
 };
+
+/** A lower bound, not far from the least, of the eigenvalues of the limit mask on a mesh without
+    boundary. S and diag(1/e) are sums over faces of 3 x 3 matrices, diag(c/(1 - c)) + (J - 1)/2 and
+    diag(1/(1 - c)) with J all ones, so Rayleigh's quotient of L lies above the smallest eigenvalue
+    of any face's pair: 1/4 where all valences are 6 or more, and never above (3 c_i - 1)/2 by more
+    than that. */
+double limit_mask_lowest(const Topology &topology);
 
 }    // namespace Membrane_NS
 

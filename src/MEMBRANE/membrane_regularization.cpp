@@ -35,6 +35,21 @@ double Membrane_NS::face_distortion(const double *pa, const double *pb, const do
   return INVERSE_4_SQRT_3 * edges / (0.5 * (b - a).cross(c - a).norm());
 }
 
+double Membrane_NS::face_uprightness(const double *const (&p)[3], const double *const (&across)[3])
+{
+  const Vector3d corner[3] = {Vector3d(p[0]), Vector3d(p[1]), Vector3d(p[2])};
+  Vector3d around = Vector3d::Zero();
+  double edges = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d &next = corner[(k + 1) % 3], edge = corner[k] - next;
+    around += edge.cross(Map<const Vector3d>(across[k]) - next);
+    edges += edge.squaredNorm();
+  }
+  const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  const double upright = 0.5 * normal.norm() / (INVERSE_4_SQRT_3 * edges);
+  return normal.dot(around) < 0.0 ? -upright : upright;
+}
+
 double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3],
                                      const std::vector<double> &modulus, double (*f)[3],
                                      std::vector<double> &energy, std::vector<double> &virial)

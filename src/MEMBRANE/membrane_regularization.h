@@ -35,6 +35,11 @@ double regularize_faces(const FaceGroup &group, const double (*x)[3],
 /// D/A of a triangle: 1 if equilateral, infinite if it has no area.
 double face_distortion(const double *a, const double *b, const double *c);
 
+/** A/D of the face p among its neighbours: 1 if equilateral, 0 if it has no area, less if it has
+    turned over, so that its normal is opposed to the sum of the normals, by area, of the three faces
+    across its edges. across[k] is the far corner of the face across the edge from p[k] to p[k+1]. */
+double face_uprightness(const double *const (&p)[3], const double *const (&across)[3]);
+
 }    // namespace Membrane_NS
 
 #endif

@@ -29,17 +29,47 @@ using Membrane_NS::VertexField;
 
 /* ---------------------------------------------------------------------- */
 
-MeshPart::MeshPart(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, int rings) : Pointers(lmp)
+MeshPart::MeshPart(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, int rings) :
+    Pointers(lmp), groupbit(groupbit)
 {
   mesh.refresh();
   for (int i = 0; i < atom->nlocal; ++i) {
     const int v = mesh.vertex_of_atom(i);
-    if (v < 0 || !(atom->mask[i] & groupbit)) continue;
-    vertices.push_back(v);
-    atoms.push_back(i);
+    if (v >= 0 && atom->mask[i] & groupbit) vertices.push_back(v);
   }
   owned = static_cast<int>(vertices.size());
+  order(mesh.topology());
+  find_atoms(mesh);
   if (comm->nprocs > 1) find_halo(mesh, rings);
+}
+
+bool MeshPart::follow(DistributedMesh &mesh)
+{
+  mesh.refresh();
+  int mine = find_atoms(mesh), all;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
+  return all;
+}
+
+// the atoms of the owned vertices; whether these are all of the group on this rank
+
+bool MeshPart::find_atoms(DistributedMesh &mesh)
+{
+  std::vector<int> atom_of_vertex(mesh.topology().num_vertices(), -1);
+  int count = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh.vertex_of_atom(i);
+    if (v < 0 || !(atom->mask[i] & groupbit)) continue;
+    atom_of_vertex[v] = i;
+    ++count;
+  }
+  atoms.resize(owned);
+  bool found = count == owned;
+  for (int i = 0; i < owned; ++i) {
+    atoms[i] = atom_of_vertex[vertices[i]];
+    found = found && atoms[i] >= 0;
+  }
+  return found;
 }
 
 /* ----------------------------------------------------------------------
@@ -104,9 +134,8 @@ void MeshPart::find_halo(DistributedMesh &mesh, int rings)
 
 /* ---------------------------------------------------------------------- */
 
-void MeshPart::fill_halo(VertexField &field)
+void MeshPart::begin_halo(VertexField &field)
 {
-  if (partners.empty()) return;
   int n = 0;
   for (Partner &p : partners)
     MPI_Irecv(field.data() + p.first, 4 * p.count, MPI_DOUBLE, p.rank, 0, world, &requests[n++]);
@@ -114,7 +143,12 @@ void MeshPart::fill_halo(VertexField &field)
     for (size_t i = 0; i < p.send.size(); ++i) p.buffer[i] = field[p.send[i]];
     MPI_Isend(p.buffer.data(), 4 * p.send.size(), MPI_DOUBLE, p.rank, 0, world, &requests[n++]);
   }
-  MPI_Waitall(n, requests.data(), statuses.data());
+}
+
+void MeshPart::end_halo(VertexField &)
+{
+  if (!requests.empty())
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), statuses.data());
 }
 
 void MeshPart::sum(double *values, int n)

@@ -23,17 +23,22 @@ namespace LAMMPS_NS {
 
 /** The control points of this rank and a halo of neighbours, numbered compactly, with their own
     communication: solvers exchange a few numbers per vertex and pass, far less than LAMMPS'
-    exchange of all ghost atoms. Valid until LAMMPS reneighbours. */
+    exchange of all ghost atoms. */
 class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
  public:
   /// Collective. Of the control points in a group, which must be whole membranes; the halo reaches
   /// `rings` edges beyond the owned ones.
   MeshPart(class LAMMPS *, class DistributedMesh &, int groupbit, int rings);
 
+  /** Collective; call when LAMMPS has reneighboured. Whether each rank still owns the same vertices,
+      and so all numbers but those of atoms stay; if not, this part is of no more use. */
+  bool follow(class DistributedMesh &);
+
   /// The owned atom of an owned vertex.
   int atom_of(int i) const { return atoms[i]; }
 
-  void fill_halo(Membrane_NS::VertexField &) override;
+  void begin_halo(Membrane_NS::VertexField &) override;
+  void end_halo(Membrane_NS::VertexField &) override;
   void sum(double *, int) override;
   void gather(const Membrane_NS::VertexField &, Membrane_NS::VertexField &) override;
 
@@ -49,11 +54,13 @@ class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
     int first, count;              // where its vertices are in the halo
     std::vector<Membrane_NS::Vector4> buffer;
   };
+  int groupbit;
   std::vector<int> atoms;
   std::vector<Partner> partners;
   std::vector<MPI_Request> requests;
   std::vector<MPI_Status> statuses;    // LAMMPS' stand-in for MPI cannot ignore them
 
+  bool find_atoms(class DistributedMesh &);
   void find_halo(class DistributedMesh &, int rings);
 };
 

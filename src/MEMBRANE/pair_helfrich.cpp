@@ -21,10 +21,13 @@
 #include "comm.h"
 #include "distributed_mesh.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
+#include "group.h"
 #include "membrane_regularization.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
@@ -37,7 +40,7 @@ using Membrane_NS::FaceGroup;
 using Membrane_NS::PatchRules;
 using Membrane_NS::Quadrature;
 
-enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, REGULARIZATION, NEXTRA };
+enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, REGULARIZATION, POINTS, NEXTRA };
 
 // a face whose D/A is beyond this is about to turn over
 static constexpr double WORST_FACE = 50.0;
@@ -46,8 +49,8 @@ static constexpr double WORST_FACE = 50.0;
 
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
     Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
-    volumes(false), area_local(false), gauss(false), regularized(false), report(false), restored(false),
-    epoch(-1), totals(lmp)
+    volumes(false), area_local(false), gauss(false), regularized(false), report(false),
+    default_regularize(0.0), terms_for_default(0.0), points_evaluated(0.0), restored(false), epoch(-1), totals(lmp)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -103,7 +106,7 @@ void PairHelfrich::allocate()
   memory->create(cutsq, n, n, "pair:cutsq");
   for (int i = 1; i < n; ++i)
     for (int j = 1; j < n; ++j) setflag[i][j] = i == j;
-  coefficients.assign(n, Coefficients());
+  coefficients.assign(n, HelfrichCoefficients());
 }
 
 void PairHelfrich::coeff(int narg, char **arg)
@@ -115,65 +118,8 @@ void PairHelfrich::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
 
-  Coefficients c;
-  c.set = true;
+  HelfrichCoefficients c = HelfrichCoefficients::parse(lmp, narg - 2, arg + 2);
   c.fresh = !restored;
-  c.kc = utils::numeric(FLERR, arg[2], false, lmp);
-  c.c0 = utils::numeric(FLERR, arg[3], false, lmp);
-  if (c.kc < 0.0) error->all(FLERR, "pair_coeff helfrich bending modulus {} is negative", arg[2]);
-
-  auto value = [&](int iarg, int offset) {
-    if (iarg + offset >= narg)
-      utils::missing_cmd_args(FLERR, std::string("pair_coeff helfrich ") + arg[iarg], error);
-    return arg[iarg + offset];
-  };
-  auto modulus = [&](int iarg) {
-    const double k = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-    if (k < 0.0)
-      error->all(FLERR, "pair_coeff helfrich {} modulus {} is negative", arg[iarg], arg[iarg + 1]);
-    return k;
-  };
-  auto reference = [&](int iarg, double &target, bool &init) {
-    init = strcmp(value(iarg, 2), "init") == 0;
-    if (init) return;
-    target = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-    if (target <= 0.0)
-      error->all(FLERR, "pair_coeff helfrich reference {} {} must be positive or init", arg[iarg],
-                 arg[iarg + 2]);
-  };
-
-  int iarg = 4;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    if (key == "kg") {
-      c.kg = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-      iarg += 2;
-    } else if (key == "tension") {
-      c.tension = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-      iarg += 2;
-    } else if (key == "area") {
-      c.area_modulus = modulus(iarg);
-      reference(iarg, c.area, c.area_init);
-      iarg += 3;
-    } else if (key == "area/local") {
-      c.local_area_modulus = modulus(iarg);
-      iarg += 2;
-    } else if (key == "volume") {
-      c.volume_modulus = modulus(iarg);
-      reference(iarg, c.volume, c.volume_init);
-      iarg += 3;
-    } else if (key == "pressure") {
-      c.pressure = utils::numeric(FLERR, value(iarg, 1), false, lmp);
-      iarg += 2;
-    } else if (key == "regularize") {
-      c.regularize = modulus(iarg);
-      iarg += 2;
-    } else
-      error->all(FLERR,
-                 "Unknown pair_coeff helfrich keyword {}; known are: kg, tension, area, area/local, "
-                 "volume, pressure, regularize",
-                 key);
-  }
 
   int count = 0;
   for (int i = MAX(ilo, jlo); i <= MIN(ihi, jhi); ++i) {
@@ -187,18 +133,12 @@ void PairHelfrich::coeff(int narg, char **arg)
                arg[0], arg[1]);
 }
 
-bool PairHelfrich::Coefficients::same_global_terms(const Coefficients &o) const
-{
-  return area_modulus == o.area_modulus && area == o.area && area_init == o.area_init &&
-      volume_modulus == o.volume_modulus && volume == o.volume && volume_init == o.volume_init &&
-      pressure == o.pressure && local_area_modulus == o.local_area_modulus;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void PairHelfrich::init_style()
 {
   mesh = &DistributedMesh::of(lmp, "Pair style helfrich");
+  default_regularize = 0.0;    // fixes that need one set it in their own init()
   mesh->update();
   epoch = -1;
 
@@ -224,6 +164,37 @@ void PairHelfrich::init_style()
     error->warning(FLERR, "Pair style helfrich finds no membrane: use create_membrane or read_data");
 
   choose_terms();
+  if (update->whichflag == 1) check_integrators();
+}
+
+/* ----------------------------------------------------------------------
+   integrators for plain atoms do move control points, as particles of their own. Rigid and prescribed
+   motion is the same with any mass matrix
+------------------------------------------------------------------------- */
+
+void PairHelfrich::check_integrators()
+{
+  static constexpr const char *FITTING[] = {"^hd/", "^move", "^rigid", "^nve/noforce"};
+  for (auto &fix : modify->get_fix_list()) {
+    if (!fix->time_integrate) continue;
+    const bool fits = std::any_of(std::begin(FITTING), std::end(FITTING), [&](const char *pattern) {
+      return utils::strmatch(fix->style, pattern);
+    });
+    if (fits) continue;
+    if (std::find(warned.begin(), warned.end(), fix->id) != warned.end()) continue;
+    bigint mine = 0, all;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & fix->groupbit && mesh->vertex(atom->tag[i]) >= 0) ++mine;
+    MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    if (all == 0) continue;
+    warned.emplace_back(fix->id);
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix {} ({}) moves {} control points as independent particles: it ignores the "
+                     "mass matrix of the surface, and waves are too slow; use fix hd/nve, "
+                     "hd/langevin or hd/brownian",
+                     fix->id, fix->style, all);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -246,13 +217,24 @@ void PairHelfrich::choose_terms()
   }
   MPI_Allreduce(mine.data(), types.data(), mine.size(), MPI_INT, MPI_MAX, world);
 
+  std::vector<char> whole_terms(nmembranes, 0);
+  for (int m = 0; m < nmembranes; ++m)
+    for (int t = 1; t <= atom->ntypes; ++t)
+      if (types[m * (atom->ntypes + 1) + t] && coefficients[t].uses_totals()) whole_terms[m] = 1;
+  const std::vector<char> excluded = find_excluded(whole_terms);
+
+  static const HelfrichCoefficients NOTHING;
   membrane_terms.assign(nmembranes, nullptr);
   membrane_volume.assign(nmembranes, 0);
   first_pass = volumes = area_local = gauss = regularized = false;
   for (int m = 0; m < nmembranes; ++m)
     for (int t = 1; t <= atom->ntypes; ++t) {
       if (!types[m * (atom->ntypes + 1) + t]) continue;
-      const Coefficients &c = coefficients[t];
+      if (excluded[m]) {
+        membrane_terms[m] = &NOTHING;
+        continue;
+      }
+      const HelfrichCoefficients &c = coefficients[t];
       const tagint molecule = mesh->molecules()[m];
       if (!membrane_terms[m]) membrane_terms[m] = &c;
       if (c.fresh) references.erase(molecule);
@@ -268,12 +250,11 @@ void PairHelfrich::choose_terms()
                    "volume and pressure from pair_coeff {} {}",
                    molecule, t, t);
       if (c.uses_volume()) membrane_volume[m] = 1;
-      if (c.area_modulus != 0.0 || c.uses_volume() || c.local_area_modulus != 0.0)
-        first_pass = true;
+      if (c.uses_totals()) first_pass = true;
       volumes = volumes || c.uses_volume();
       area_local = area_local || c.local_area_modulus != 0.0;
       gauss = gauss || c.kg != 0.0;
-      regularized = regularized || c.regularize != 0.0;
+      regularized = regularized || regularize_of(c) != 0.0;
     }
 
   totals.reset(*mesh);
@@ -281,10 +262,13 @@ void PairHelfrich::choose_terms()
   for (auto &c : coefficients) c.fresh = false;
   restored = false;
 
-  // total volumes cost a pass: only if somebody can read them
+  // total volumes cost a pass: only if there are any and somebody can read them
 
-  report = !modify->get_compute_by_style("^pair$").empty();
+  report = false;
+  if (!modify->get_compute_by_style("^pair$").empty())
+    for (int m = 0; m < nmembranes; ++m) report = report || mesh->is_closed_membrane(m);
   generation = mesh->generation();
+  terms_for_default = default_regularize;
 
   membrane_faces.clear();
   reference_area.clear();
@@ -293,6 +277,59 @@ void PairHelfrich::choose_terms()
     for (int f = 0; f < topology.num_faces(); ++f)
       membrane_faces[mesh->membrane(topology.component(topology.face(f)[0]))].push_back(f);
   }
+}
+
+/* ----------------------------------------------------------------------
+   neigh_modify exclude group A A says that what is within A does not matter, as for a frozen part:
+   faces that depend on points of A only are left out. A membrane with terms of its total area or
+   volume is left out as a whole or not at all. By membrane, whether it is left out; all ranks agree.
+------------------------------------------------------------------------- */
+
+bool PairHelfrich::in_exclusion(int mask, int e) const
+{
+  return mask & group->bitmask[neighbor->ex1_group[e]] &&
+      mask & group->bitmask[neighbor->ex2_group[e]];
+}
+
+std::vector<char> PairHelfrich::find_excluded(const std::vector<char> &whole_terms) const
+{
+  const int nmembranes = static_cast<int>(whole_terms.size());
+  std::vector<char> excluded(nmembranes, 0);
+  std::vector<bigint> size(nmembranes, 0), mine(nmembranes), inside(nmembranes);
+  for (int c = 0; c < mesh->topology().num_components(); ++c)
+    size[mesh->membrane(c)] += mesh->topology().num_vertices(c);
+  for (int e = 0; e < neighbor->nex_group; ++e) {
+    std::fill(mine.begin(), mine.end(), 0);
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const int v = mesh->vertex(atom->tag[i]);
+      if (v >= 0 && in_exclusion(atom->mask[i], e))
+        ++mine[mesh->membrane(mesh->topology().component(v))];
+    }
+    MPI_Allreduce(mine.data(), inside.data(), nmembranes, MPI_LMP_BIGINT, MPI_SUM, world);
+    for (int m = 0; m < nmembranes; ++m) {
+      if (inside[m] == size[m]) excluded[m] = 1;
+      if (inside[m] && inside[m] < size[m] && whole_terms[m])
+        error->all(FLERR,
+                   "neigh_modify exclude group has {} of the {} control points of membrane {}, whose "
+                   "area or volume terms need all of it: exclude the whole membrane or nothing",
+                   inside[m], size[m], mesh->molecules()[m]);
+    }
+  }
+  return excluded;
+}
+
+bool PairHelfrich::is_excluded(int face, std::vector<int> &stencil) const
+{
+  mesh->topology().stencil(face, stencil);
+  int common = ~0;
+  for (int v : stencil) {
+    const int i = atom->map(mesh->tag(v));
+    if (i < 0) return false;    // local_groups() reports it
+    common &= atom->mask[i];
+  }
+  for (int e = 0; e < neighbor->nex_group; ++e)
+    if (in_exclusion(common, e)) return true;
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -311,7 +348,12 @@ double PairHelfrich::init_one(int i, int j)
 
 void PairHelfrich::localize()
 {
-  groups = mesh->local_groups(*rules);
+  std::vector<int> faces(mesh->owned_faces()), stencil;
+  if (neighbor->nex_group)
+    faces.erase(std::remove_if(faces.begin(), faces.end(),
+                               [&](int f) { return is_excluded(f, stencil); }),
+                faces.end());
+  groups = mesh->local_groups(*rules, faces);
   epoch = mesh->epoch();
   const int nslots = count_slots(groups);
   model.resize(nslots);
@@ -323,13 +365,13 @@ void PairHelfrich::localize()
     for (int s = 0; s < group.nslots(); ++s) {
       const int slot = group.first_slot + s;
       for (int k = 0; k < 3; ++k) {
-        const Coefficients &c = coefficients[atom->type[group.point(s, k)]];
+        const HelfrichCoefficients &c = coefficients[atom->type[group.point(s, k)]];
         model.kc[slot] += c.kc / 3.0;
         model.c0[slot] += c.c0 / 3.0;
         model.kg[slot] += c.kg / 3.0;
         base_tension[slot] += c.tension / 3.0;
         if (area_local) local_modulus[slot] += c.local_area_modulus / 3.0;
-        if (regularized) regularization[slot] += c.regularize / 3.0;
+        if (regularized) regularization[slot] += regularize_of(c) / 3.0;
       }
     }
   model.tension = base_tension;
@@ -345,7 +387,7 @@ void PairHelfrich::take_references()
   const auto &membranes = totals.membranes();
   bool missing = false;
   for (size_t m = 0; m < molecules.size(); ++m) {
-    const Coefficients &c = *membrane_terms[m];
+    const HelfrichCoefficients &c = *membrane_terms[m];
     Reference &reference = references[molecules[m]];
     if (c.area_modulus != 0.0) {
       if (!c.area_init) reference.area = c.area;
@@ -396,7 +438,7 @@ void PairHelfrich::apply_global_terms()
   const auto &membranes = totals.membranes();
   std::vector<double> tension(molecules.size(), 0.0), pressure(molecules.size(), 0.0);
   for (size_t m = 0; m < molecules.size(); ++m) {
-    const Coefficients &c = *membrane_terms[m];
+    const HelfrichCoefficients &c = *membrane_terms[m];
     const Reference &reference = references[molecules[m]];
     if (c.area_modulus != 0.0)
       tension[m] = c.area_modulus * (membranes[m].area - reference.area) / reference.area;
@@ -431,7 +473,7 @@ void PairHelfrich::share_volume_recoil()
     if (v < 0) continue;
     const int c = topology.component(v), m = mesh->membrane(c);
     if (!membrane_volume[m]) continue;
-    const Coefficients &terms = *membrane_terms[m];
+    const HelfrichCoefficients &terms = *membrane_terms[m];
     double pressure = -terms.pressure;
     if (terms.volume_modulus != 0.0) {
       const double v0 = references[molecules[m]].volume;
@@ -448,7 +490,10 @@ void PairHelfrich::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   mesh->refresh();
-  if (mesh->generation() != generation) choose_terms();
+  if (mesh->generation() != generation || terms_for_default != default_regularize) {
+    choose_terms();
+    epoch = -1;
+  }
   if (epoch != mesh->epoch()) localize();
 
   const bool wants_volume = volumes || (eflag_global && report);
@@ -456,6 +501,9 @@ void PairHelfrich::compute(int eflag, int vflag)
     totals.measure(groups, model, integrals, wants_volume);
     take_references();
   }
+  double points = 0.0;
+  for (const FaceGroup &group : groups) points += 1.0 * group.nfaces * group.rule->npoints;
+  points_evaluated = first_pass || wants_volume ? 2.0 * points : points;
   if (first_pass) apply_global_terms();
   if (volumes) totals.place_origins(groups, model);
 
@@ -528,6 +576,7 @@ void PairHelfrich::regularize()
 void PairHelfrich::tally()
 {
   std::fill_n(pvector, NEXTRA, 0.0);
+  pvector[POINTS] = points_evaluated;
 
   // energy of each membrane's area and volume, per area
 
@@ -536,7 +585,7 @@ void PairHelfrich::tally()
   std::vector<double> area_energy(molecules.size(), 0.0), volume_energy(molecules.size(), 0.0);
   if (eflag_either && first_pass)
     for (size_t m = 0; m < molecules.size(); ++m) {
-      const Coefficients &c = *membrane_terms[m];
+      const HelfrichCoefficients &c = *membrane_terms[m];
       const Reference &reference = references[molecules[m]];
       if (c.area_modulus != 0.0) {
         const double excess = membranes[m].area - reference.area;
@@ -672,24 +721,29 @@ void PairHelfrich::read_restart_settings(FILE *fp)
 void PairHelfrich::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
-  fwrite(coefficients.data(), sizeof(Coefficients), coefficients.size(), fp);
+  fwrite(coefficients.data(), sizeof(HelfrichCoefficients), coefficients.size(), fp);
 }
 
 void PairHelfrich::read_restart(FILE *fp)
 {
   read_restart_settings(fp);
   allocate();
-  read_all(fp, coefficients.data(), sizeof(Coefficients), coefficients.size());
+  read_all(fp, coefficients.data(), sizeof(HelfrichCoefficients), coefficients.size());
 }
 
 /* ---------------------------------------------------------------------- */
 
-// bending moduli by type, for min style membrane
+/* ----------------------------------------------------------------------
+   kc: bending moduli by type, for min style membrane; default_regularize: of types that pair_coeff says
+   nothing of, for a fix to set before each run
+------------------------------------------------------------------------- */
 
 void *PairHelfrich::extract(const char *name, int &dim)
 {
-  dim = 1;
+  dim = 0;
+  if (strcmp(name, "default_regularize") == 0) return &default_regularize;
   if (strcmp(name, "kc") != 0) return nullptr;
+  dim = 1;
   moduli.resize(coefficients.size());
   for (size_t t = 0; t < coefficients.size(); ++t) moduli[t] = coefficients[t].kc;
   return moduli.data();

@@ -20,12 +20,14 @@ PairStyle(helfrich,PairHelfrich);
 #ifndef LMP_PAIR_HELFRICH_H
 #define LMP_PAIR_HELFRICH_H
 
+#include "helfrich_coefficients.h"
 #include "membrane_helfrich.h"
 #include "mesh_totals.h"
 #include "pair.h"
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -53,24 +55,6 @@ class PairHelfrich : public Pair {
   double memory_usage() override;
 
  private:
-  // what one pair_coeff line says
-
-  struct Coefficients {
-    bool set = false;
-    bool fresh = false;    // since the last run: "init" is to be taken anew
-    double kc = 0.0, c0 = 0.0, kg = 0.0;
-    double tension = 0.0;                     // S: energy S A
-    double area_modulus = 0.0, area = 0.0;    // KA/2 (A-A0)^2/A0 per membrane
-    double local_area_modulus = 0.0;          // KA/2 sum (a-a0)^2/a0 over faces
-    double volume_modulus = 0.0, volume = 0.0;
-    double pressure = 0.0;      // DP: energy -DP V
-    double regularize = 0.0;    // KR: energy KR (D/A - 1) of a face's shape
-    bool area_init = false, volume_init = false;
-
-    bool same_global_terms(const Coefficients &) const;
-    bool uses_volume() const { return volume_modulus != 0.0 || pressure != 0.0; }
-  };
-
   // areas and volume a membrane is compared with, taken at the first step for "init"
 
   struct Reference {
@@ -80,18 +64,22 @@ class PairHelfrich : public Pair {
 
   Membrane_NS::Quadrature quadrature;
   std::unique_ptr<Membrane_NS::PatchRules> rules;
-  std::vector<Coefficients> coefficients;    // by type, from 1
+  std::vector<HelfrichCoefficients> coefficients;    // by type, from 1
   std::vector<double> moduli;                // kc by type, for extract()
   std::map<tagint, Reference> references;    // by molecule ID
 
   class DistributedMesh *mesh;
   int generation;                                      // topology that what follows is for
-  std::vector<const Coefficients *> membrane_terms;    // whose global terms a membrane has
+  std::vector<const HelfrichCoefficients *> membrane_terms;    // whose global terms a membrane has
   std::vector<char> membrane_volume;                   // whether its volume is wanted
   std::vector<std::vector<int>> membrane_faces;        // for area/local only
   std::vector<double> reference_area;                  // by face, for area/local only
   bool first_pass, volumes, area_local, gauss, regularized, report;
+  double default_regularize, terms_for_default;    // KR where pair_coeff says none; see extract()
+  double points_evaluated;    // of quadrature, in this step on this rank
   bool restored;    // references come from a restart file and outlive the next pair_coeff
+
+  std::vector<std::string> warned;    // of these fixes
 
   bigint epoch;    // reneighbouring that what follows is for
   std::vector<Membrane_NS::FaceGroup> groups;
@@ -103,7 +91,15 @@ class PairHelfrich : public Pair {
   MeshTotals totals;
 
   void allocate();
+  void check_integrators();
+  double regularize_of(const HelfrichCoefficients &c) const
+  {
+    return c.regularize_given ? c.regularize : default_regularize;
+  }
   void choose_terms();
+  bool in_exclusion(int mask, int e) const;
+  std::vector<char> find_excluded(const std::vector<char> &whole_terms) const;
+  bool is_excluded(int face, std::vector<int> &stencil) const;
   void localize();
   void take_references();
   void apply_global_terms();

@@ -50,14 +50,17 @@ void SRDCells::Participants::clear()
   velocity.clear();
   mass.clear();
   label.clear();
+  side.clear();
 }
 
-int SRDCells::Participants::add(const double *x, const double *v, double m, uint64_t name)
+int SRDCells::Participants::add(const double *x, const double *v, double m, uint64_t name,
+                                int which_side)
 {
   position.insert(position.end(), x, x + 3);
   velocity.insert(velocity.end(), v, v + 3);
   mass.push_back(m);
   label.push_back(name);
+  side.push_back(which_side);
   return count() - 1;
 }
 
@@ -74,7 +77,7 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
 
   const bool offsets = rule.needs_offsets();
   change_frame(solvent, 1.0);
-  const SRDParticles atoms = bin_solvent(solvent, side, offsets), rest = bin_others(offsets);
+  const SRDParticles atoms = bin_solvent(solvent, side, offsets), rest = bin_others(side, offsets);
 
   const int layers = side ? 2 : 1, cells = grid.size(), wide = rule.num_moments();
   moments.assign((size_t) layers * cells * wide, 0.0);
@@ -128,8 +131,19 @@ void SRDCells::change_frame(const SRDSolvent &solvent, double sign)
 }
 
 /* ----------------------------------------------------------------------
-   side 0 in the first layer of cells, others in the second
+   side 0 in the first layer of cells, others in the second. A cell that the periodic boundary runs
+   through is in one piece beyond one of its ends.
 ------------------------------------------------------------------------- */
+
+int SRDCells::side_of(const double *x, int side) const
+{
+  int s = side != 0, times[3];
+  if (!flips[0] && !flips[1] && !flips[2]) return s;
+  grid.passed(x, times);
+  for (int k = 0; k < 3; ++k)
+    if (flips[k]) s ^= times[k] & 1;
+  return s;
+}
 
 SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, bool offsets)
 {
@@ -158,7 +172,7 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
     } else
       c = grid.cell(x[j]);
     if (c < 0) lost = j;
-    if (side && side[j] && c >= 0) c += cells;
+    if (side && c >= 0 && side_of(x[j], side[j])) c += cells;
     bins.cell[i] = c;
   }
   if (lost >= 0)
@@ -179,7 +193,7 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
   return p;
 }
 
-SRDParticles SRDCells::bin_others(bool offsets)
+SRDParticles SRDCells::bin_others(bool layers, bool offsets)
 {
   Binned &bins = other_bins;
   bins.resize(others.count());
@@ -191,6 +205,7 @@ SRDParticles SRDCells::bin_others(bool offsets)
                  "Fix srd/mesh: a point mass of the membrane at ({:.6g}, {:.6g}, {:.6g}) is far "
                  "outside of its sub-domain",
                  x[0], x[1], x[2]);
+    if (layers && side_of(x, others.side[i])) bins.cell[i] += grid.size();
   }
   return particles_of(others, bins);
 }

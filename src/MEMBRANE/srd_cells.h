@@ -19,6 +19,7 @@
 #include "srd_grid.h"
 #include "srd_solvent.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,14 +44,17 @@ class SRDCells : protected Pointers {
   struct Participants {
     std::vector<double> position, velocity, mass;    ///< [][3], [][3], []
     std::vector<uint64_t> label;                     ///< distinct from atom IDs of solvent
+    std::vector<int> side;                           ///< of solvent that they collide with
     int count() const { return static_cast<int>(mass.size()); }
     void clear();
     /// Returns its place in the arrays.
-    int add(const double *x, const double *v, double m, uint64_t name);
+    int add(const double *x, const double *v, double m, uint64_t name, int which_side = 0);
   };
   /** Fill before collide(), which changes their velocities: on one rank each, within the reach of its
       sub-domain, positions in any periodic image. They stay until cleared. */
   Participants others;
+  /// Solvent that passes through the periodic boundary in this direction changes its side.
+  std::array<bool, 3> flips = {false, false, false};
 
   // === Collision
 
@@ -89,9 +93,10 @@ class SRDCells : protected Pointers {
   Binned solvent_bins, other_bins, filler_bins;
   Participants fillers;
 
+  int side_of(const double *x, int side) const;
   void change_frame(const SRDSolvent &, double sign);
   Membrane_NS::SRDParticles bin_solvent(const SRDSolvent &, const int *side, bool offsets);
-  Membrane_NS::SRDParticles bin_others(bool offsets);
+  Membrane_NS::SRDParticles bin_others(bool layers, bool offsets);
   static Membrane_NS::SRDParticles particles_of(Participants &, Binned &);
   void fill(bigint step, const Membrane_NS::BoxWalls &, double filling, double mass, int layers);
   /// The fillers' momentum, of cells that this rank owns, to the walls.

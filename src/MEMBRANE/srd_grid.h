@@ -79,7 +79,7 @@ class SRDGrid : protected Pointers {
     double t[3];
     grid_coordinates(x, t);
     for (int k = 0; k < 3; ++k)
-      times[k] = periodic[k] ? static_cast<int>(std::floor(t[k] / n[k])) : 0;
+      times[k] = periodic[k] ? static_cast<int>(std::floor(std::floor(t[k]) / n[k])) : 0;
   }
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;

@@ -36,6 +36,7 @@ using Membrane_NS::CollisionEvents;
 using Membrane_NS::MassKind;
 using Membrane_NS::SurfaceVertex;
 using Membrane_NS::Vector4;
+using Membrane_NS::VertexField;
 
 // relative residual of L x = b: far below the errors that conservation is tested to
 static constexpr double TOLERANCE = 1.0e-14;
@@ -89,6 +90,7 @@ void SurfaceMotion::check_movers()
     if (integrator->mass_settings().kind != MassKind::VERTEX)
       error->all(FLERR, "{} needs point masses on the surface: use mass vertex in fix {} ({})",
                  user, fix->id, fix->style);
+    integrator->remember_displacement();
     integrators.push_back(integrator);
   }
 }
@@ -349,28 +351,52 @@ const std::vector<SurfaceVertex> &SurfaceMotion::places()
   return vertices;
 }
 
+void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity)
+{
+  refresh();
+  load_positions();
+  position.assign(r.begin(), r.begin() + part().owned);
+  part().load(atom->v, moved);
+  velocity.resize(part().size());
+  matrix().apply_mask(moved, velocity);
+}
+
 /* ----------------------------------------------------------------------
    the control points' velocities and positions follow from those of the masses by L^-1
 ------------------------------------------------------------------------- */
 
+void SurfaceMotion::add_to(double **target)
+{
+  r.resize(part().size());
+  matrix().solve_mask(q, r);
+  for (int i = 0; i < part().owned; ++i) {
+    if (!is_free(part().vertices[i])) continue;
+    for (int k = 0; k < 3; ++k) target[part().atom_of(i)][k] += r[i].c[k];
+  }
+}
+
+void SurfaceMotion::apply(const VertexField &change)
+{
+  q = change;
+  q.resize(part().size());
+  for (int i = 0; i < part().owned; ++i)
+    if (!is_free(part().vertices[i])) q[i] = {};
+  add_to(atom->v);
+}
+
 void SurfaceMotion::apply(const std::vector<CollisionEvents::Change> &changes)
 {
-  MeshPart &part = mass.part();
-  for (int quantity = 0; quantity < 2; ++quantity) {
-    q.assign(part.size(), Vector4{});
-    r.resize(part.size());
-    for (int i = 0; i < part.owned; ++i) {
-      const auto &change = changes[part.vertices[i]];
-      const Vector3d &d = quantity == 0 ? change.velocity : change.position;
-      q[i] = {{d[0], d[1], d[2], 0.0}};
-    }
-    mass.matrix().solve_mask(q, r);
-    double **target = quantity == 0 ? atom->v : atom->x;
-    for (int i = 0; i < part.owned; ++i) {
-      if (vertices[part.vertices[i]].inverse_mass == 0.0) continue;
-      for (int k = 0; k < 3; ++k) target[part.atom_of(i)][k] += r[i].c[k];
-    }
+  q.resize(part().size());
+  for (int i = 0; i < part().owned; ++i) {
+    const Vector3d &d = changes[part().vertices[i]].velocity;
+    q[i] = {{d[0], d[1], d[2], 0.0}};
   }
+  add_to(atom->v);
+  for (int i = 0; i < part().owned; ++i) {
+    const Vector3d &d = changes[part().vertices[i]].position;
+    q[i] = {{d[0], d[1], d[2], 0.0}};
+  }
+  add_to(atom->x);
 }
 
 double SurfaceMotion::memory_usage() const

@@ -73,6 +73,10 @@ class SurfaceMotion : protected Pointers {
   int owner(int vertex) const { return owner_of[vertex]; }
   /// Changes when vertices have new owners.
   bigint epoch() { return mass.mesh().epoch(); }
+  /// Collective: limit positions and velocities of the owned vertices, in the order of part().
+  void masses_now(Membrane_NS::VertexField &position, Membrane_NS::VertexField &velocity);
+  /// Collective: changes of the masses' velocities, in the order of part(), reach the control points.
+  void apply(const Membrane_NS::VertexField &change);
   /// Collective: changes of velocity and position of the owned vertices, by vertex, reach the
   /// control points.
   void apply(const std::vector<Membrane_NS::CollisionEvents::Change> &changes);
@@ -113,6 +117,7 @@ class SurfaceMotion : protected Pointers {
   void load_positions();
   void load_displacements();
   void share(int width);
+  void add_to(double **target);
 };
 
 }    // namespace LAMMPS_NS

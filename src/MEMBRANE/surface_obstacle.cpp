@@ -36,7 +36,8 @@ using Membrane_NS::BoxWalls;
 using Membrane_NS::CollisionEvents;
 using Membrane_NS::MovingPoint;
 using Membrane_NS::SurfaceGrid;
-using Membrane_NS::VertexImpulse;
+using Membrane_NS::VertexField;
+using Membrane_NS::SurfaceImpulse;
 
 // all of these in edges of the mesh
 
@@ -48,6 +49,9 @@ static constexpr double SKIN = 0.15;
 // looked for in the first attempt, and at most
 static constexpr double FIRST_SLACK = 0.02, MOST_SLACK = 0.15;
 static constexpr double SPACING = 0.5;
+
+// of the random numbers that say with which side a point mass collides
+static constexpr uint64_t SIDE_SEED = 0x73696465;
 
 // solvent faster than this, in root mean squares, gets a closer look everywhere
 static constexpr double FAST = 2.5;
@@ -74,6 +78,10 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
   rule.no_slip = settings.no_slip;
   rule.contact = CONTACT * motion.edge();
   if (settings.most_bounces > 0) rule.most_bounces = settings.most_bounces;
+  if (settings.control) {
+    inverse_mask = std::make_unique<Membrane_NS::InverseMask>(motion.mesh().topology());
+    rule.control = inverse_mask.get();
+  }
   events = CollisionEvents(rule);
   grid = {};
   vertex_slack = point_slack = FIRST_SLACK * motion.edge();
@@ -153,7 +161,7 @@ void SurfaceObstacle::find_shared()
     for (int v : motion.surface().faces[image.face]) users[v] = motion.owner(v) == comm->me ? 1 : 2;
   MPI_Allreduce(users.data(), sum.data(), n, MPI_INT, MPI_SUM, world);
   shared.resize(n);
-  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1;
+  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1 || settings.control;
 }
 
 /* ----------------------------------------------------------------------
@@ -170,9 +178,9 @@ void SurfaceObstacle::stream_bulk(const SRDSolvent &solvent, BoxWalls &walls, do
     if (!dense && !solvent.has(i)) continue;
     double *xi = x[i], *vi = v[i];
     const int cube = grid.cube(xi);
-    if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) ||
-        !(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2] < most))
-      near.push_back(i);
+    const double square = vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2];
+    if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) || !(square < most))
+      near.push_back({i, {Vector3d::Map(xi), Vector3d::Map(vi)}, std::sqrt(square)});
     else if (have_walls)
       walls.stream(xi, vi, solvent.mass()[i], dt);
     else
@@ -189,12 +197,12 @@ bool SurfaceObstacle::collect(const SRDSolvent &solvent, const BoxWalls &walls, 
   grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
   entered.clear();
-  for (int i : near) {
-    const MovingPoint path = {Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i])};
-    const double reach = dt * path.velocity.norm() + point_slack;
+  for (size_t n = 0; n < near.size(); ++n) {
+    const auto &[i, path, speed] = near[n];
+    const double reach = dt * speed + point_slack;
     if (!grid.find(path.origin, reach, found)) return false;
     if (found.empty()) continue;
-    entered.push_back(i);
+    entered.push_back(n);
     events.add_point(path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
     for (int t : found) {
       const auto &image = grid.images()[t];
@@ -238,8 +246,8 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
 
 bool SurfaceObstacle::exchange()
 {
-  std::vector<VertexImpulse> mine;
-  for (const VertexImpulse &impulse : events.impulses())
+  std::vector<SurfaceImpulse> mine;
+  for (const SurfaceImpulse &impulse : events.impulses())
     for (int v : impulse.vertex)
       if (shared[v] && motion.is_free(v)) {
         mine.push_back(impulse);
@@ -247,17 +255,17 @@ bool SurfaceObstacle::exchange()
       }
 
   const int nprocs = comm->nprocs;
-  int bytes = static_cast<int>(mine.size() * sizeof(VertexImpulse));
+  int bytes = static_cast<int>(mine.size() * sizeof(SurfaceImpulse));
   std::vector<int> counts(nprocs), starts(nprocs + 1, 0);
   MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   for (int p = 0; p < nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
-  std::vector<VertexImpulse> all(starts.back() / sizeof(VertexImpulse));
+  std::vector<SurfaceImpulse> all(starts.back() / sizeof(SurfaceImpulse));
   if (!all.empty())
     MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE,
                    world);
   if (all == told) return false;
 
-  const auto first = all.begin() + starts[comm->me] / sizeof(VertexImpulse);
+  const auto first = all.begin() + starts[comm->me] / sizeof(SurfaceImpulse);
   from_outside.assign(all.begin(), first);
   from_outside.insert(from_outside.end(), first + mine.size(), all.end());
   told = std::move(all);
@@ -268,18 +276,19 @@ bool SurfaceObstacle::exchange()
 
 void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double dt)
 {
-  for (size_t n = 0; n < entered.size(); ++n) {
-    const int i = entered[n];
-    const MovingPoint &path = events.path(n);
-    Vector3d::Map(atom->x[i]) = path.at(dt);
-    Vector3d::Map(atom->v[i]) = path.velocity;
-  }
+  const bool have_walls = walls.any();
   size_t next = 0;
-  for (int i : near) {
-    if (next < entered.size() && entered[next] == i)
-      ++next;
+  for (size_t n = 0; n < near.size(); ++n) {
+    const int i = near[n].atom;
+    double *x = atom->x[i], *v = atom->v[i];
+    if (next < entered.size() && entered[next] == (int) n) {
+      const MovingPoint &path = events.path(next++);
+      Vector3d::Map(x) = path.at(dt);
+      Vector3d::Map(v) = path.velocity;
+    } else if (have_walls)
+      walls.stream(x, v, solvent.mass()[i], dt);
     else
-      walls.stream(atom->x[i], atom->v[i], solvent.mass()[i], dt);
+      Vector3d::Map(x) += dt * near[n].path.velocity;
   }
   Vector3d::Map(walls.impulse) += events.wall_impulse();
 
@@ -292,6 +301,40 @@ void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double 
   int mine = !events.touched().empty(), any;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) motion.apply(events.changes());
+}
+
+/* ----------------------------------------------------------------------
+   solvent that bounces back at a surface still slips where cells are cut by it, unless the surface
+   itself has mass in these cells
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::join_cells(SRDCells &cells, bigint step)
+{
+  if (!settings.no_slip) return;
+  VertexField position;
+  motion.masses_now(position, joined);
+  MeshPart &part = motion.part();
+  const Membrane_NS::CounterRandom random(SIDE_SEED, step);
+  cells.others.clear();
+  for (int i = 0; i < part.owned; ++i) {
+    const tagint tag = atom->tag[part.atom_of(i)];
+    cells.others.add(position[i].c, joined[i].c, motion.mass_of(part.vertices[i]), tag,
+                     random.uniforms(tag, 0)[0] < 0.5);
+  }
+}
+
+void SurfaceObstacle::leave_cells(SRDCells &cells)
+{
+  if (!settings.no_slip) return;
+  MeshPart &part = motion.part();
+  VertexField change(part.owned);
+  for (int i = 0; i < part.owned; ++i)
+    for (int k = 0; k < 3; ++k) {
+      change[i].c[k] = cells.others.velocity[3 * i + k] - joined[i].c[k];
+      tally[HANDED + k] += motion.mass_of(part.vertices[i]) * change[i].c[k];
+    }
+  motion.apply(change);
+  cells.others.clear();
 }
 
 /* ----------------------------------------------------------------------
@@ -387,5 +430,6 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
 
 double SurfaceObstacle::memory_usage() const
 {
-  return motion.memory_usage() + regions.memory_usage() + grid.memory_usage();
+  return motion.memory_usage() + regions.memory_usage() + grid.memory_usage() +
+      (inverse_mask ? inverse_mask->memory_usage() : 0.0);
 }

@@ -17,10 +17,13 @@
 #include "membrane_box_walls.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
+#include "membrane_inverse_mask.h"
+#include "srd_cells.h"
 #include "srd_solvent.h"
 #include "surface_motion.h"
 #include "surface_regions.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,6 +39,7 @@ class SurfaceObstacle : protected Pointers {
   struct Settings {
     int membranes = 0;          ///< their group
     bool no_slip = false;
+    bool control = false;       ///< impulses act on control points
     int most_bounces = 0;       ///< of an atom in one step; 0 for very many
     double spacing = 0.0;       ///< of the grid that finds triangles; 0 to choose it
     double stray = 0.0;         ///< how far solvent may be from its owner's sub-domain
@@ -53,6 +57,10 @@ class SurfaceObstacle : protected Pointers {
   void setup(const SRDSolvent &);
   /// From post_integrate(), after control points have moved: solvent moves for the time dt.
   void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  /** Around a collision in cells, if the surface does not slip: the point masses take part in it, each
+      with the solvent on one of its sides, drawn anew for each step. */
+  void join_cells(SRDCells &cells, bigint step);
+  void leave_cells(SRDCells &cells);
   /// From final_integrate().
   void remember() { motion.remember(); }
   /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
@@ -71,14 +79,21 @@ class SurfaceObstacle : protected Pointers {
   Settings settings;
   Membrane_NS::CollisionEvents events;
   Membrane_NS::SurfaceGrid grid;
+  std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
   bigint built_epoch;
   std::vector<char> shared;    // vertices that atoms of several ranks may touch
-  std::vector<int> near;       // atoms that need a closer look
-  std::vector<int> entered;    // those of them that may meet a triangle
+  struct Near {                // an atom that needs a closer look
+    int atom;
+    Membrane_NS::MovingPoint path;
+    double speed;
+  };
+  std::vector<Near> near;
+  std::vector<int> entered;    // those of them that may meet a triangle, by number
   std::vector<int> found;
   double vertex_slack, point_slack;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
-  std::vector<Membrane_NS::VertexImpulse> told, from_outside;    // by all ranks; by others
+  Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
+  std::vector<Membrane_NS::SurfaceImpulse> told, from_outside;    // by all ranks; by others
 
   void prepare_grid(const SRDSolvent &, double dt);
   void build_grid(const SRDSolvent &, double dt);

@@ -18,6 +18,8 @@
 #include "membrane_collision.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
+#include "membrane_inverse_mask.h"
+#include "membrane_limit_basis.h"
 #include "membrane_mesh_shapes.h"
 #include "membrane_side.h"
 
@@ -69,7 +71,7 @@ struct Gas {
   long collisions = 0, strayed = 0;
 
   Gas(TriangleMesh m, double vertex_mass, bool no_slip = false) :
-      mesh(std::move(m)), events({no_slip, 1.0e-10, 5000})
+      mesh(std::move(m)), events(settings(no_slip))
   {
     surface.faces = mesh.faces;
     const Matrix3d to_fraction = mesh.lattice.inverse();
@@ -84,6 +86,13 @@ struct Gas {
     }
     for (const Vector3d &x : mesh.points)
       vertices.push_back({{x, Vector3d::Zero()}, vertex_mass > 0 ? 1.0 / vertex_mass : 0.0});
+  }
+
+  static CollisionEvents::Settings settings(bool no_slip)
+  {
+    CollisionEvents::Settings s;
+    s.no_slip = no_slip;
+    return s;
   }
 
   Vector3d fraction(const Vector3d &x) const { return mesh.lattice.inverse() * x; }
@@ -468,13 +477,18 @@ TEST(CollisionEvents, ImpulsesFromOutsideActAtTheirTime)
   EXPECT_EQ(events.run(), CollisionEvents::Outcome::DONE);
   EXPECT_TRUE(events.impulses().empty());
 
+  // J/3 on each of three masses of 1
+
   const Vector3d up(0, 0, 1);
-  EXPECT_EQ(events.run({{0.5, 2, {0, 1, 2}, {up, up, up}}}), CollisionEvents::Outcome::DONE);
+  auto lift = [&](double time) {
+    return SurfaceImpulse{time, 2, {0, 1, 2}, {1 / 3.0, 1 / 3.0, 1 / 3.0}, 3 * up, -1};
+  };
+  EXPECT_EQ(events.run({lift(0.5)}), CollisionEvents::Outcome::DONE);
   ASSERT_EQ(events.impulses().size(), 1u);
   EXPECT_NEAR(events.impulses()[0].time, 0.6, 1e-15);
   EXPECT_GT(events.path(0).velocity[2], 1.0);
 
-  EXPECT_EQ(events.run({{0.95, 2, {0, 1, 2}, {up, up, up}}}), CollisionEvents::Outcome::DONE);
+  EXPECT_EQ(events.run({lift(0.95)}), CollisionEvents::Outcome::DONE);
   EXPECT_TRUE(events.impulses().empty());
   EXPECT_EQ(events.changes()[1].velocity, up);
   EXPECT_NEAR(events.changes()[1].position[2], 0.05, 1e-15);
@@ -484,7 +498,7 @@ TEST(CollisionEvents, ImpulsesFromOutsideActAtTheirTime)
   events.begin(vertices, triangles, 1.0, 0.1);
   events.add_point({{0.3, 0.3, 0.1}, Vector3d::Zero()}, 1.0, 1, 10.0);
   events.add_pair(0, 1);
-  EXPECT_EQ(events.run({{0.5, 2, {0, 1, 2}, {up, up, up}}}), CollisionEvents::Outcome::VERTEX_STRAYED);
+  EXPECT_EQ(events.run({lift(0.5)}), CollisionEvents::Outcome::VERTEX_STRAYED);
 }
 
 // the shape must stay one without self-intersections: vertices are tied to where they began
@@ -578,4 +592,88 @@ TEST(CollisionEvents, NothingLeaksBetweenClosingSheets)
       EXPECT_NEAR(gas.energy() / e, 1.0, 1e-12);
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   impulses on control points
+------------------------------------------------------------------------- */
+
+TEST(InverseMask, RowsInvertTheLimitMask)
+{
+  for (const TriangleMesh &mesh : {icosphere(2, 1.0), torus(24, 12, 1.0, 0.4), icosphere(0, 1.0)}) {
+    const Topology topology(mesh.points.size(), mesh.faces);
+    InverseMask inverse(topology);
+    for (int v : {0, 5, topology.num_vertices() - 1}) {
+      std::vector<double> product(topology.num_vertices(), 0.0);    // row times L
+      double sum = 0.0;
+      const auto &row = inverse.row(v);
+      for (size_t i = 0; i < row.vertex.size(); ++i) {
+        const int a = row.vertex[i], n = topology.valence(a);
+        const double c = limit_mask_centre(n);
+        product[a] += c * row.weight[i];
+        for (int w : topology.ring(a)) product[w] += (1 - c) / n * row.weight[i];
+        sum += row.weight[i];
+      }
+      product[v] -= 1.0;
+      for (double p : product) EXPECT_NEAR(p, 0.0, 3e-15);
+      EXPECT_NEAR(sum, 1.0, 1e-15);
+    }
+  }
+}
+
+TEST(CollisionEvents, ImpulseOnAControlPointIsEquation44)
+{
+  Random random(9);
+  const TriangleMesh mesh = icosphere(2, 1.0);
+  const Topology topology(mesh.points.size(), mesh.faces);
+  InverseMask inverse(topology);
+  int on_control = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<SurfaceVertex> vertices;
+    for (const Vector3d &x : mesh.points)
+      vertices.push_back({{x, random.normal(0.05)}, 1.0 / random.uniform(2.0, 4.0)});
+    std::vector<SurfaceTriangle> triangles;
+    for (const Face &f : mesh.faces)
+      triangles.push_back({f, {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}});
+    CollisionEvents::Settings settings;
+    settings.control = &inverse;
+    CollisionEvents events(settings);
+    events.begin(vertices, triangles, 1.0, 10.0);
+    const double mass = random.uniform(0.2, 1.0);
+    const Vector3d from = random.vector(0.3), v = random.normal(1.0).normalized() * 1.2;
+    events.add_point({from, v}, 1.0 / mass, 1, 10.0);
+    for (size_t t = 0; t < triangles.size(); ++t) events.add_pair(t, -1);
+    ASSERT_EQ(events.run(), CollisionEvents::Outcome::DONE);
+    if (events.impulses().size() != 1) continue;
+    const SurfaceImpulse &hit = events.impulses()[0];
+    if (hit.control < 0) continue;
+    ++on_control;
+
+    // M^-1 = L^-1 D^-1 L^-T and qdot = L^-1 w from a dense L
+
+    const int n = topology.num_vertices();
+    Eigen::MatrixXd mask = Eigen::MatrixXd::Zero(n, n), w(n, 3), inverse_masses(n, 1);
+    for (int a = 0; a < n; ++a) {
+      const double c = limit_mask_centre(topology.valence(a));
+      mask(a, a) = c;
+      for (int b : topology.ring(a)) mask(a, b) += (1 - c) / topology.valence(a);
+      w.row(a) = vertices[a].path.velocity.transpose();
+      inverse_masses(a) = vertices[a].inverse_mass;
+    }
+    const Eigen::MatrixXd l = mask.inverse();
+    const Eigen::MatrixXd inverse_m = l * inverse_masses.asDiagonal() * l.transpose();
+    const Eigen::MatrixXd qdot = l * w;
+    const Vector3d normal = hit.impulse.normalized();
+    const int i = hit.control;
+    const double alpha =
+        2.0 * (v - qdot.row(i).transpose()).dot(normal) / (1.0 / mass + inverse_m(i, i));
+    EXPECT_NEAR(hit.impulse.norm() / std::fabs(alpha), 1.0, 1e-12);
+    EXPECT_LT((events.path(0).velocity - (v - alpha / mass * normal)).norm(), 1e-12);
+
+    Eigen::MatrixXd change(n, 3);
+    for (int a = 0; a < n; ++a) change.row(a) = events.changes()[a].velocity.transpose();
+    const Eigen::MatrixXd expected = inverse_m.col(i) * (alpha * normal).transpose();
+    EXPECT_LT((l * change - expected).norm(), 1e-12);
+  }
+  EXPECT_GT(on_control, 10);
 }

@@ -34,10 +34,11 @@ namespace {
 // all vertices on one rank
 
 struct Whole : VertexPart {
-  explicit Whole(int n)
+  explicit Whole(const Topology &topology)
   {
-    owned = n;
-    for (int i = 0; i < n; ++i) vertices.push_back(i);
+    owned = topology.num_vertices();
+    for (int i = 0; i < owned; ++i) vertices.push_back(i);
+    order(topology);
   }
 };
 
@@ -50,7 +51,7 @@ struct Body {
   MassOperator matrix;
 
   Body(TriangleMesh m, MassKind kind, bool direct = false, double tolerance = 1.0e-10) :
-      mesh(std::move(m)), topology(mesh.points.size(), mesh.faces), part(mesh.points.size()),
+      mesh(std::move(m)), topology(mesh.points.size(), mesh.faces), part(topology),
       masses(uneven(mesh.points.size())), labels(numbers(mesh.points.size())),
       matrix(topology, part, masses, labels, {kind, direct, tolerance})
   {
@@ -153,7 +154,7 @@ TEST(MassOperator, ConsistentRowOfARegularMeshIsTheTextbookOne)
   const Eigen::Matrix3d box = Eigen::Vector3d(12, 12, 12).asDiagonal();
   const TriangleMesh mesh = sheet(12, 12, box, 0.5);
   const Topology topology(mesh.points.size(), mesh.faces);
-  Whole part(mesh.points.size());
+  Whole part(topology);
   std::vector<double> masses(mesh.points.size(), 1.0);
   MassOperator matrix(topology, part, masses, Body::numbers(mesh.points.size()),
                       {MassKind::CONSISTENT, false, 1e-10});

@@ -125,7 +125,12 @@ for name, fix in (("hd/nve", "velocity all create 0.1 99\nfix 1 all hd/nve"),
 # === Wrong input
 
 for fix, said in (("hd/langevin 1 1 0 4711", "damping time 0 must be positive"),
+                  ("hd/langevin 1 1 -0.1 4711", "damping time -0.1 must be positive"),
                   ("hd/langevin -1 1 1 4711", "must not be negative"),
+                  ("hd/langevin 1 -1 1 4711", "must not be negative"),
+                  ("hd/brownian -1 4711 gamma_t 1", "must not be negative"),
+                  ("hd/nve tol 0", "tol 0 must be between"),
+                  ("hd/brownian 1 4711 gamma_t 1 tol 1e-20", "tol 1e-20 must be between"),
                   ("hd/langevin 1 1 1 0", "seed 0 must be positive"),
                   ("hd/langevin 1 1 1 4711 tol 1", "tol 1 must be between"),
                   ("hd/langevin 1 1 1 4711 mass heavy", "mass heavy is not"),
@@ -137,8 +142,9 @@ for fix, said in (("hd/langevin 1 1 0 4711", "damping time 0 must be positive"),
     error = error_of(VESICLE.format(fix=f"fix 1 all {fix}") + "run 0\n")
     claim(f"fix {fix}", said in error, error)
 two = "fix 0 all {}\nfix 1 all hd/nve"
-error = error_of(VESICLE.format(fix=two.format("hd/langevin 1 1 1 1")) + "run 0\n")
-claim("two integrators", "are also moved by fix" in error, error)
+for other in ("hd/langevin 1 1 1 1", "nve", "nvt temp 1 1 1"):
+    error = error_of(VESICLE.format(fix=two.format(other)) + "run 0\n")
+    claim(f"two integrators, the other is {other}", "are also moved by fix" in error, error)
 error = error_of(VESICLE.format(fix="group half id <= 40\nfix 1 half hd/nve") + "run 0\n")
 claim("a group that cuts a membrane", "group half has 40 of the 96 control points" in error, error)
 error = error_of(VESICLE.format(fix="set atom 5 mass 0.0\nfix 1 all hd/nve") + "run 0\n")

@@ -5,6 +5,7 @@ import cmath
 import math
 
 from lammps_claims import claim, error_of, finish, run, thermo
+from lattice_waves import surface
 from membrane_scenes import TETRAHEDRON, write_off
 
 ROOT = math.sqrt(0.75)
@@ -87,11 +88,7 @@ def wave_vector(nx, ny, tilt=0.0):
 def response(nx, ny, tilt=0.0):
     qx, qy = wave_vector(nx, ny, tilt)
     half = tilt / NY
-    product = 1.0
-    for e in ((1.0, 0.0), (half + 0.5, ROOT), (half - 0.5, ROOT)):
-        x = 0.5 * (qx * e[0] + qy * e[1])
-        product *= (math.sin(x) / x) ** 2 if abs(x) > 1e-12 else 1.0
-    return product
+    return surface((qx, qy), ((1.0, 0.0), (half + 0.5, ROOT), (half - 0.5, ROOT)))
 
 
 def wave(nx, ny, amplitude, tilt=0.0):

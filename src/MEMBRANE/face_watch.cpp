@@ -1,0 +1,153 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "face_watch.h"
+
+#include "atom.h"
+#include "distributed_mesh.h"
+#include "error.h"
+#include "fmt/format.h"
+#include "membrane_regularization.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+// a face with less than this A/D is about to turn over, unless it began with little more: then it may
+// fall to a fraction of that
+static constexpr double LEAST_UPRIGHT = 1.0 / 50.0;
+static constexpr double LEAST_FRACTION = 0.25;
+
+static constexpr bigint PATIENCE = 10000;
+
+/* ---------------------------------------------------------------------- */
+
+FaceWatch::FaceWatch(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, std::string user) :
+    Pointers(lmp), patience(PATIENCE), mesh(mesh), groupbit(groupbit), user(std::move(user)),
+    epoch(-1), generation(-1), last_step(-1), bad_since(-1), warned(false)
+{
+}
+
+/* ----------------------------------------------------------------------
+   after reneighbouring. A face whose neighbours are out of reach has grown too much for the energy,
+   which says so
+------------------------------------------------------------------------- */
+
+void FaceWatch::localize()
+{
+  const auto &topology = mesh.topology();
+  faces.clear();
+  for (int f : mesh.owned_faces()) {
+    Watched watched;
+    watched.face = f;
+    bool complete = true;
+    for (int k = 0; k < 3; ++k) {
+      watched.corner[k] = k == 0 ? atom->map(mesh.tag(topology.face(f)[0]))
+                                 : mesh.find_neighbor(watched.corner[0], topology.face(f)[k]);
+      if (k == 0 && !(atom->mask[watched.corner[0]] & groupbit)) complete = false;
+      complete = complete && watched.corner[k] >= 0;
+      if (!complete) break;
+    }
+    for (int k = 0; complete && k < 3; ++k) {
+      watched.across[k] = mesh.find_neighbor(watched.corner[k], topology.opposite(f, k));
+      complete = watched.across[k] >= 0;
+    }
+    if (complete) faces.push_back(watched);
+  }
+}
+
+double FaceWatch::uprightness(const Watched &watched) const
+{
+  const double *const corner[3] = {atom->x[watched.corner[0]], atom->x[watched.corner[1]],
+                                   atom->x[watched.corner[2]]};
+  const double *const across[3] = {atom->x[watched.across[0]], atom->x[watched.across[1]],
+                                   atom->x[watched.across[2]]};
+  return Membrane_NS::face_uprightness(corner, across);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FaceWatch::begin()
+{
+  mesh.refresh();
+  epoch = mesh.epoch();
+  localize();
+  const bool continues = update->ntimestep == last_step && mesh.generation() == generation;
+  if (!continues) judge_start();
+  generation = mesh.generation();
+  last_step = update->ntimestep;
+}
+
+void FaceWatch::judge_start()
+{
+  bad_since = -1;
+  warned = false;
+
+  // all ranks know all faces, since faces move between ranks
+
+  std::vector<double> mine(mesh.topology().num_faces(), -INFINITY);
+  for (const Watched &watched : faces) {
+    const double now = uprightness(watched);
+    if (now > 0.0) mine[watched.face] = MIN(LEAST_UPRIGHT, LEAST_FRACTION * now);
+  }
+  least.resize(mine.size());
+  MPI_Allreduce(mine.data(), least.data(), mine.size(), MPI_DOUBLE, MPI_MAX, world);
+}
+
+void FaceWatch::check(bool due)
+{
+  last_step = update->ntimestep;
+  if (!due) return;
+  mesh.refresh();
+  if (epoch != mesh.epoch()) {
+    epoch = mesh.epoch();
+    localize();
+  }
+
+  const Watched *worst = nullptr;
+  double least_upright = 0.0;
+  for (const Watched &watched : faces) {
+    const double now = uprightness(watched);
+    if (!(now < least[watched.face]) || (worst && now > least_upright)) continue;
+    worst = &watched;
+    least_upright = now;
+  }
+  if (!worst) {
+    bad_since = -1;
+    return;
+  }
+
+  if (bad_since < 0) bad_since = last_step;
+  const bool stop = last_step >= bad_since + patience;
+  if (warned && !stop) return;
+  const std::string what = fmt::format(
+      "{}: {} {}, as happens to the mesh of a fluid membrane: keep it in shape with regularize in "
+      "pair_coeff, or use a smaller timestep",
+      user, mesh.face_name(worst->face),
+      least_upright > 0.0 ? fmt::format("collapses (distortion {:.3g})", 1.0 / least_upright - 1.0)
+                          : "has turned over");
+  if (stop) error->one(FLERR, what);
+  warned = true;
+  error->warning(FLERR, "{}; unless it recovers, the run stops after step {}", what,
+                 bad_since + patience);
+}
+
+double FaceWatch::memory_usage() const
+{
+  return sizeof(Watched) * faces.capacity() + sizeof(double) * least.capacity();
+}

@@ -1,0 +1,69 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FACE_WATCH_H
+#define LMP_FACE_WATCH_H
+
+#include "pointers.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/** Notices in a run that a face of the control mesh collapses or turns over, which is how the mesh
+    of a fluid membrane ends: warns, and stops the run unless the mesh soon recovers. Faces are
+    judged by Membrane_NS::face_uprightness against what they were when the run began: meshes that
+    are stretched or coarse from the start are left alone. */
+class FaceWatch : protected Pointers {
+ public:
+  /// `user` is named in the error.
+  FaceWatch(class LAMMPS *, class DistributedMesh &, int groupbit, std::string user);
+
+  /// Steps for which a run goes on while there is such a face.
+  bigint patience;
+
+  /// Collective; at the start of a run, when coordinates of ghosts are those of this step. A run
+  /// that continues the last one goes by the start of that.
+  void begin();
+  /// Every step, likewise: looks at this rank's faces if that is due.
+  void check(bool due);
+  double memory_usage() const;
+
+ private:
+  // local indices of the corners, and of the far corners of the faces across its edges
+
+  struct Watched {
+    int face;
+    int corner[3], across[3];
+  };
+
+  class DistributedMesh &mesh;
+  int groupbit;
+  std::string user;
+  bigint epoch;
+  int generation;      // of the topology that least is for
+  bigint last_step;    // of the last check
+  bigint bad_since;    // when faces of this rank became bad, or -1
+  bool warned;
+  std::vector<Watched> faces;
+  std::vector<double> least;    // by face of the topology: what it must not fall below
+
+  void localize();
+  void judge_start();
+  double uprightness(const Watched &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

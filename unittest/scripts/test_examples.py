@@ -1,0 +1,46 @@
+"""The examples of dynamics do what they say; those that take averages with a tenth of their steps."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+from lammps_claims import EXAMPLES, claim, finish, run
+
+
+def example(name, *changes):
+    """What an example prints, its long runs cut short."""
+    script = open(os.path.join(EXAMPLES, name, "in.membrane")).read()
+    for long, short in changes:
+        claim(f"{name} has {long!r}", long in script)
+        script = script.replace(long, short)
+    return run(script)
+
+
+def plotted(name):
+    shutil.copy(os.path.join(EXAMPLES, name, "plot.py"), ".")
+    done = subprocess.run([sys.executable, "plot.py"], stdout=subprocess.PIPE, text=True)
+    rows = [line.split() for line in open("spectrum.txt")][1:]
+    return done.returncode, [float(row[-3]) for row in rows]
+
+
+output = example("vesicle_nve")
+last = [line for line in output.split("\n") if line.startswith("timestep ") and "smaller by a factor" in line][-1]
+factor = float(last.split()[-1])
+claim("vesicle_nve: half the timestep has a quarter of the energy error", 3.5 < factor < 4.5, last)
+
+output = example("plane", ("500 5000", "50 500"), ("run             100000", "run             10000"))
+lines = output.split("\n")
+start = max(i for i, line in enumerate(lines) if line.split() == ["nx", "ny", "q", "omega", "omega/q^2"])
+ratios = [float(line.split()[4]) for line in lines[start + 1:start + 5]]
+claim("plane: omega = q^2 within 3e-4", all(abs(ratio - 1) < 3e-4 for ratio in ratios), ratios)
+code, ratios = plotted("plane")
+mean = sum(ratios) / len(ratios)
+claim("    and its spectrum is near theory", code == 0 and len(ratios) == 21 and abs(mean - 1) < 0.05, f"{mean:.3f}")
+
+example("flicker", ("200 2000", "20 200"), ("run             40000", "run             4000"))
+code, ratios = plotted("flicker")
+mean = sum(ratios) / len(ratios)
+claim("flicker: the spectrum is near theory", code == 0 and len(ratios) == 9 and abs(mean - 1) < 0.1, f"{mean:.3f}")
+
+finish()

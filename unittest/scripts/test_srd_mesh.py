@@ -1,0 +1,293 @@
+"""fix srd/mesh with membranes: what a collision keeps, that nothing passes, ranks, restarts, scenes."""
+# ranks: 4
+
+import math
+import os
+
+from lammps_claims import REFERENCE, claim, error_of, finish, run, thermo
+from membrane_scenes import read_dump
+
+# === One collision, against the formulas
+
+
+def read_off(path):
+    words = open(path).read().split()
+    n, m = int(words[1]), int(words[2])
+    numbers = words[4:]
+    points = [tuple(map(float, numbers[3 * i:3 * i + 3])) for i in range(n)]
+    rest = list(map(int, numbers[3 * n:]))
+    return points, [tuple(rest[4 * f + 1:4 * f + 4]) for f in range(m)]
+
+
+OFF = os.path.join(REFERENCE, "icosphere_2.off")
+POINTS, FACES = read_off(OFF)
+COUNT, VERTEX_MASS, MASS = len(POINTS), 10.0, 0.7
+
+
+def limit_mask():
+    """Rows {vertex: weight} of L, from Loop's weights."""
+    rings = [set() for _ in POINTS]
+    for a, b, c in FACES:
+        rings[a] |= {b, c}
+        rings[b] |= {c, a}
+        rings[c] |= {a, b}
+    rows = []
+    for v, ring in enumerate(rings):
+        n = len(ring)
+        beta = (0.625 - (0.375 + math.cos(2 * math.pi / n) / 4) ** 2) / n
+        spoke = 1 / (3 / (8 * beta) + n)
+        rows.append({v: 1 - n * spoke, **{w: spoke for w in ring}})
+    return rows
+
+
+MASK = limit_mask()
+
+
+def to_masses(q):
+    return [[sum(c * q[w][k] for w, c in row.items()) for k in range(3)] for row in MASK]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+ONE = f"""
+units           lj
+atom_style      membrane_cp
+region          box block -3 3 -3 3 -3 3
+create_box      2 box angle/types 1
+create_membrane 1 file {OFF}
+create_atoms    2 single {{at}}
+set             type 1 mass {VERTEX_MASS}
+set             type 2 mass {MASS}
+group           membrane type 1
+group           solvent type 2
+velocity        membrane create 0.01 4711
+velocity        solvent set {{v}}
+pair_style      helfrich
+pair_coeff      1 1 0.0 0.0 regularize 0
+fix             1 membrane hd/nve
+fix             2 solvent srd/mesh 100000 membrane 1.0 1.0 4711 shift yes 9127 velocity keep {{args}}
+timestep        0.02
+thermo_style    custom step f_2[2] f_2[3] f_2[8]
+thermo          1
+dump            d all custom 1 one.dump id x y z vx vy vz
+dump_modify     d sort id format float %.17g
+run             35
+"""
+
+
+def one(at, v, args):
+    """Frames before and after the first collision, as (positions, velocities) of masses and solvent."""
+    rows = thermo(run(ONE.format(at=at, v=v, args=args)))
+    step = next(i for i, row in enumerate(rows) if row["f_2[2]"])
+    states = []
+    for frame in read_dump("one.dump")[step - 1:step + 1]:
+        q = [frame[i + 1][:3] for i in range(COUNT)]
+        qdot = [frame[i + 1][3:] for i in range(COUNT)]
+        states.append((q, qdot, to_masses(q), to_masses(qdot), frame[COUNT + 1][:3], frame[COUNT + 1][3:]))
+    return rows[step], states
+
+
+def sums(state):
+    _, _, r, w, x, v = state
+    energy = MASS * dot(v, v) / 2 + sum(VERTEX_MASS * dot(u, u) / 2 for u in w)
+    linear = [MASS * v[k] + VERTEX_MASS * sum(u[k] for u in w) for k in range(3)]
+    angular = [MASS * c for c in cross(x, v)]
+    for a, u in zip(r, w):
+        c = cross(a, u)
+        angular = [angular[k] + VERTEX_MASS * c[k] for k in range(3)]
+    return energy, linear, angular
+
+
+def gap(a, b):
+    return max(abs(x - y) for x, y in zip(a, b))
+
+
+for name, at, v in (("from inside", "0.2 0.1 -0.3", "1.7 -0.9 1.1"),
+                    ("from outside", "1.4 -0.9 0.3", "-2.0 1.5 -0.6")):
+    for args in ("collision slip", "collision noslip", "impulse control collision slip"):
+        row, (before, after) = one(at, v, args)
+        (e0, p0, l0), (e1, p1, l1) = sums(before), sums(after)
+        turned = gap(before[5], after[5])
+        claim(f"a collision {name}, {args}: energy and momentum to 1e-12",
+              row["f_2[2]"] == 1 and turned > 0.1 and abs(e1 / e0 - 1) < 1e-12 and gap(p0, p1) < 1e-12,
+              f"{e1 / e0 - 1:.1e} {gap(p0, p1):.1e}, velocity changed by {turned:.2f}")
+        if not args.startswith("impulse"):
+            claim("    and angular momentum", gap(l0, l1) < 1e-12, f"{gap(l0, l1):.1e}")
+            continue
+        claim("    but not angular momentum", gap(l0, l1) > 1e-4, f"{gap(l0, l1):.1e}")
+
+        # Eq. 44: alpha = 2 (v - qdot_i).n / (1/m + M^-1_ii), from a dense M = L^T D L
+
+        n = [a - b for a, b in zip(before[5], after[5])]
+        size = math.sqrt(dot(n, n))
+        n = [x / size for x in n]
+        place = [after[4][k] - 0.01 * (before[5][k] + after[5][k]) for k in range(3)]
+        nearest = sorted(range(COUNT), key=lambda a: math.dist(before[2][a], place))[:3]
+        matrix = [[sum(VERTEX_MASS * MASK[a].get(j, 0.0) * MASK[a].get(l, 0.0) for a in range(COUNT))
+                   for l in range(COUNT)] for j in range(COUNT)]
+        columns = [[1.0 if j == i else 0.0 for i in nearest] for j in range(COUNT)]
+        for j in range(COUNT):    # Gauss: positive definite, no pivots needed
+            for l in range(j + 1, COUNT):
+                f = matrix[l][j] / matrix[j][j]
+                if f:
+                    row_j, row_l = matrix[j], matrix[l]
+                    for m in range(j, COUNT):
+                        row_l[m] -= f * row_j[m]
+                    columns[l] = [a - f * b for a, b in zip(columns[l], columns[j])]
+        for j in reversed(range(COUNT)):
+            for i in range(3):
+                known = sum(matrix[j][m] * columns[m][i] for m in range(j + 1, COUNT))
+                columns[j][i] = (columns[j][i] - known) / matrix[j][j]
+        error, spread = 1.0, 1.0
+        for i, v in enumerate(nearest):    # which is nearest to where it hit depends on when
+            relative = dot([a - b for a, b in zip(before[5], before[1][v])], n)
+            alpha = 2 * relative / (1 / MASS + columns[v][i])
+            if abs(MASS * size / alpha - 1) < error:
+                error = abs(MASS * size / alpha - 1)
+                spread = max(abs(after[1][j][k] - before[1][j][k] - columns[j][i] * alpha * n[k])
+                             for j in range(COUNT) for k in range(3))
+        claim("    the impulse is that of Eq. 44, and qdot changes by M^-1 times it",
+              error < 1e-11 and spread < 1e-11, f"{error:.1e} {spread:.1e}")
+
+# === Scenes: nothing passes, momentum is kept, 1, 2 and 4 ranks agree, restarts continue
+
+SCENE = """
+units           lj
+atom_style      membrane_cp
+{boundary}
+region          box {box}
+create_box      2 box angle/types 1
+{create}
+set             type 1 mass 5.0
+set             type 2 mass 1.0
+group           membrane type 1
+group           solvent type 2
+pair_style      helfrich
+pair_coeff      1 1 {energy}
+{move}
+fix             2 solvent srd/mesh 5 membrane 1.0 1.0 4711 angle 130 shift yes 9127 {args}
+compute         T membrane hd/temp
+compute         ks solvent ke
+timestep        0.01
+thermo_style    custom step c_T c_ks pe f_2[*]
+thermo_modify   norm no format float %.17g
+thermo          10
+"""
+DUMP = """dump d all custom 60 {path} id x y z vx vy vz
+dump_modify     d sort id format float %.17g
+"""
+SOLVENT = "create_atoms 2 random {} 8341 box\n"
+CLOSED, OPEN = "20.0 0.0 area 200.0 init volume 200.0 init", "10.0 0.0"
+
+
+class Scene:
+    def __init__(self, create, box="block 0 8 0 8 0 8", energy=OPEN, args="collision slip",
+                 move="fix 1 membrane hd/nve tol 1e-13", boundary="", inside=False, kept=(0, 1, 2), alike=True):
+        self.values = dict(create=create, box=box, energy=energy, args=args, move=move, boundary=boundary)
+        self.inside, self.kept, self.alike = inside, kept, alike
+
+    def text(self, create=None):
+        return SCENE.format(**{**self.values, "create": self.values["create"] if create is None else create})
+
+
+SCENES = {
+    "vesicle across the corner of the box": Scene(
+        "create_membrane 1 sphere 2 2.5 center 0.3 7.9 0.2\n" + SOLVENT.format(3000), energy=CLOSED, inside=True),
+    "the same, no slip": Scene(
+        "create_membrane 1 sphere 2 2.5 center 0.3 7.9 0.2\n" + SOLVENT.format(3000), energy=CLOSED,
+        args="collision noslip", inside=True),
+    "the same, impulses on control points": Scene(
+        "create_membrane 1 sphere 2 2.5 center 0.3 7.9 0.2\n" + SOLVENT.format(2000), energy=CLOSED,
+        args="impulse control collision slip", inside=True),
+    "sheet": Scene("create_membrane 1 plane 13 16\n" + SOLVENT.format(3000)),
+    "sheet, no slip": Scene("create_membrane 1 plane 13 16 center 0 0 3.9\n" + SOLVENT.format(3000),
+                            args="collision noslip"),
+    "two sheets with solvent squeezed between": Scene(
+        "create_membrane 1 plane 13 16 center 0 0 -0.15\ncreate_membrane 1 plane 13 16 center 0 0 0.15\n" +
+        SOLVENT.format(3000)),
+    "sheet between walls": Scene("create_membrane 1 plane 13 16 center 0 0 2\n" + SOLVENT.format(3000),
+                                 boundary="boundary p p f", kept=()),
+    "vesicle in a vesicle": Scene(
+        "create_membrane 1 sphere 2 3.0\ncreate_membrane 1 sphere 1 1.2\n" + SOLVENT.format(3000),
+        energy=CLOSED, inside=True),
+    "tube along x": Scene("create_membrane 1 cylinder 18 16 2.0 x\n" + SOLVENT.format(3000)),
+    "torus in a tilted box": Scene(
+        "create_membrane 1 torus 24 10 2.2 0.9 center 1 7 0\n" + SOLVENT.format(3000), energy=CLOSED,
+        box="prism 0 8 0 8 0 8 2.0 -1.0 1.5", inside=True),
+    "vesicle with friction": Scene(
+        "create_membrane 1 sphere 2 2.5\n" + SOLVENT.format(3000), energy=CLOSED, inside=True, kept=(),
+        move="fix 1 membrane hd/langevin 1.0 1.0 1.0 4711"),
+    "vesicle that does not move": Scene(
+        "create_membrane 1 sphere 2 2.5\n" + SOLVENT.format(3000), energy=CLOSED, inside=True, kept=(), move=""),
+    "vesicle on a circle": Scene(
+        "create_membrane 1 sphere 2 2.5\n" + SOLVENT.format(3000), energy=CLOSED, inside=True, kept=(),
+        move="fix 1 membrane move rotate 3 4 4 0 0 1 20"),
+}
+
+
+def difference(a, b):
+    return max(abs(x - y) for i in a for x, y in zip(a[i][3:], b[i][3:]))
+
+
+for name, scene in SCENES.items():
+    run(scene.text() + "write_data scene.data nocoeff\n")
+    start = scene.text("").replace("region ", "#").replace("create_box ", "#").replace(
+        "set             type", "#").replace("group           membrane", "read_data scene.data\ngroup membrane", 1)
+    reference = None
+    for ranks in (1, 2, 4):
+        rows = thermo(run(start + DUMP.format(path="r.dump") + "run 60\n", ranks=ranks))
+        frame = read_dump("r.dump")[-1]
+        if ranks == 1:
+            reference = frame
+            crossings = rows[-1]["f_2[3]"]
+            scale = math.sqrt(2 * 3000 * rows[0]["c_ks"])
+            momentum = max(abs(row[f"f_2[{5 + k}]"] - rows[0][f"f_2[{5 + k}]"])
+                           for row in rows for k in scene.kept) if scene.kept else 0.0
+            split = [row["f_2[8]"] for row in rows]
+            claim(f"{name}: no crossing, momentum kept, insides keep their atoms",
+                  crossings == 0 and rows[-1]["f_2[2]"] > 100 and momentum < 1e-12 * scale and
+                  max(split) == min(split) and (split[0] > 0) == scene.inside,
+                  f"{rows[-1]['f_2[2]']:.0f} collisions, {momentum / scale:.1e}, {split[0]:.0f} inside")
+            continue
+        worst = difference(reference, frame)
+        claim(f"    {ranks} ranks agree with 1", worst < 1e-10 and rows[-1]["f_2[3]"] == 0, f"{worst:.1e}")
+    if name == "vesicle that does not move":
+        energy = [row["c_ks"] for row in rows]
+        claim("    solvent keeps its energy", max(energy) / min(energy) - 1 < 1e-12, max(energy) / min(energy) - 1)
+
+for name in ("the same, no slip", "sheet, no slip"):
+    scene = SCENES[name]
+    for ranks in (1, 2):
+        tail = DUMP.format(path="{}") + "run 60\n"
+        straight = thermo(run(scene.text() + "run 60\nwrite_restart half.restart\n" + tail.format("s.dump"),
+                              ranks=ranks))
+        again = scene.text("read_restart half.restart").replace("region ", "#").replace(
+            "create_box ", "#").replace("set             type", "#")
+        rows = thermo(run(again + tail.format("a.dump"), ranks=ranks))
+        worst = difference(read_dump("s.dump")[-1], read_dump("a.dump")[-1])
+        same = all(abs(rows[-1][f"f_2[{i}]"] - straight[-1][f"f_2[{i}]"]) < 1e-9 for i in (2, 3, 4, 8, 9))
+        claim(f"{name}, {ranks} rank(s): a run continues from a restart file", worst < 1e-10 and same, f"{worst:.1e}")
+
+# === Bad input
+
+BASE = Scene("create_membrane 1 sphere 2 2.5\n" + SOLVENT.format(3000), energy=CLOSED)
+
+
+def error(**changes):
+    return error_of(SCENE.format(**{**BASE.values, **changes}) + "run 5\n")
+
+
+for move, word in (("fix 1 membrane hd/brownian 1.0 4711 gamma_t 1.0", "momenta"),
+                   ("fix 1 membrane hd/nve mass lumped", "mass vertex"),
+                   ("fix 1 membrane hd/nve mass consistent", "mass vertex"),
+                   ("fix 1 membrane nve", "hd/nve")):
+    said = error(move=move)
+    claim(f"{move}: an error with the cure", "Fix srd/mesh" in said and word in said, said)
+
+finish()
