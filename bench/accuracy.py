@@ -5,7 +5,7 @@ and step of LAMMPS' Lennard-Jones benchmark, in this run.
 
   bench/accuracy.py [STUDY...] [--lmp build/lmp] [--out FOLDER]
 
-Studies: energy, modes, steps, thermal; by default all. Each writes STUDY.csv and, with
+Studies: energy, modes, steps, thermal, relaxed, sphere, sampling, hot; by default all. Each writes STUDY.csv and, with
 python3-matplotlib, STUDY.png, which Howto_membrane_accuracy shows."""
 
 import argparse
@@ -30,13 +30,25 @@ class Lammps:
         self.path, self.units = os.path.abspath(path), []
         self.measure_unit()
 
-    def run(self, script):
+    def attempt(self, script, files=None, fetch=None):
+        """Run a script in a folder with these files {name: text}: exit code, and what LAMMPS printed or, with
+        fetch, wrote to the file of that name."""
         with tempfile.TemporaryDirectory() as folder:
+            for name, text in (files or {}).items():
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write(text)
             done = subprocess.run([self.path, "-log", "none"], input=script, capture_output=True, text=True,
                                   cwd=folder)
-        if done.returncode:
-            sys.exit(f"{script}\n{done.stdout[-2000:]}\nthis failed")
-        return done.stdout
+            if fetch and not done.returncode:
+                with open(os.path.join(folder, fetch)) as file:
+                    return 0, file.read()
+        return done.returncode, done.stdout
+
+    def run(self, script, files=None, fetch=None):
+        code, output = self.attempt(script, files, fetch)
+        if code:
+            sys.exit(f"{script}\n{output[-2000:]}\nthis failed")
+        return output
 
     def measure_unit(self):
         with open(os.path.join(HERE, "in.lj")) as file:
@@ -44,6 +56,13 @@ class Lammps:
 
     def cost(self, output, line="Loop"):
         return self.per_point(output, line) / statistics.median(self.units)
+
+    def total_cost(self, output):
+        """LJ atom-steps of all runs and minimizations of a script together."""
+        walls = re.findall(r"^Loop time of (\S+) on", output, re.M)
+        shares = re.findall(r"^([\d.]+)% CPU use", output, re.M)
+        return sum(float(wall) * 0.01 * float(share) for wall, share in zip(walls, shares)) / \
+            statistics.median(self.units)
 
     @staticmethod
     def per_point(output, line):
@@ -287,8 +306,261 @@ def plot_thermal(axes, rows):
     axes.legend()
 
 
+# === A relaxed shape: the red blood cell of reduced volume 0.65, by the multiplier method of
+# examples/vesicle: ask for as much more area and volume as was missing
+
+OBLATE = 1.826233    # axisymmetric minimum, E/(8 pi kc)
+
+
+def relaxed(lammps):
+    rows, area, volume = [], 4 * math.pi, 0.65 * 4 * math.pi / 3
+    for rule, weak in (("3", ""), ("3", "regularize 0.01"), ("6", ""), ("6", "regularize 0.01"), ("12", "")):
+        for level in (2, 3, 4):
+            script = HEAD + f"""
+region          box block -3 3 -3 3 -3 3
+create_box      1 box angle/types 1
+create_membrane 1 sphere {level} 1.0 scale 1.2 1.2 0.6
+pair_style      helfrich quadrature {rule}
+pair_coeff      1 1 1.0 0.0 area 1.0e4 {area!r} volume 1.0e4 {volume!r} {weak}
+compute         hf all pair helfrich
+compute         s all membrane/shape quadrature careful
+thermo_style    custom step c_hf[1] c_s[5] c_s[9] c_s[1] c_s[2]
+thermo_modify   norm no format float %.15g
+thermo          100000
+variable        area equal {area!r}
+variable        volume equal {volume!r}
+min_style       membrane
+minimize        1e-8 0 300 3000
+""" + 3 * f"""
+run             0 post no
+variable        area equal $(v_area+{area!r}-c_s[1]:%.15g)
+variable        volume equal $(v_volume+{volume!r}-c_s[2]:%.15g)
+pair_coeff      1 1 1.0 0.0 area 1.0e4 ${{area}} volume 1.0e4 ${{volume}} {weak}
+minimize        0 0 300 3000
+"""
+            output = lammps.run(script)
+            _, by_rule, careful, angle, *_ = [row for row in thermo(output) if len(row) == 6][-1]
+            rows.append([rule, weak.split()[-1] if weak else "0", 10 * 4**level + 2, lammps.total_cost(output),
+                         careful / (8 * math.pi) / OBLATE - 1, by_rule / (8 * math.pi), careful / (8 * math.pi), angle])
+        lammps.measure_unit()
+    return ["quadrature", "regularize", "points", "cost", "error", "by the rule", "careful", "smallest angle"], rows
+
+
+def plot_relaxed(axes, rows):
+    for rule, weak in (("3", "0.01"), ("6", "0.01"), ("6", "0"), ("12", "0")):
+        mine = [row for row in rows if row[0] == rule and row[1] == weak]
+        axes.loglog([row[3] for row in mine], [abs(row[4]) for row in mine], marker="o" if weak == "0" else "^",
+                    linestyle="-" if weak == "0" else "--",
+                    label=f"{rule} points" + (f", regularize {weak} kc" if weak != "0" else ""))
+    axes.set(xlabel="cost of the whole minimization (LJ atom-steps)", ylabel="relative error of the bending energy",
+             title="A vesicle of reduced volume 0.65, relaxed: 162, 642, 2,562 points")
+    axes.legend(fontsize=8)
+
+
+# === Vesicles: the slowest mode, degree 2, with equal masses and with masses as the areas around the points
+
+def areas(points, faces):
+    """A third of the flat faces around each point."""
+    total = [0.0] * len(points)
+    for face in faces:
+        a, b, c = (points[v] for v in face)
+        u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+        n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        for corner in face:
+            total[corner] += math.hypot(*n) / 6
+    return total
+
+
+def mesh_of(data):
+    """Points and faces of a data file."""
+    section, points, faces = "", {}, []
+    for line in data.splitlines():
+        words = line.split("#")[0].split()
+        if words[:1] in (["Atoms"], ["Angles"], ["Velocities"]):
+            section = words[0]
+        elif section == "Atoms" and len(words) >= 7:
+            points[int(words[0])] = [float(word) for word in words[4:7]]
+        elif section == "Angles" and len(words) == 5:
+            faces.append(tuple(int(word) - 1 for word in words[2:5]))
+    return [points[i] for i in sorted(points)], faces
+
+
+def frequency_of(t, u, guess):
+    """omega of the best u = a cos(omega t) + b, by golden section within 10 % of a guess."""
+    def misfit(omega):
+        c = [math.cos(omega * time) for time in t]
+        n, sc, su = len(t), sum(c), sum(u)
+        a = (n * sum(map(float.__mul__, c, u)) - sc * su) / (n * sum(x * x for x in c) - sc * sc)
+        b = (su - a * sc) / n
+        return sum((y - a * x - b)**2 for x, y in zip(c, u))
+    low, high, golden = 0.9 * guess, 1.1 * guess, 0.5 * (math.sqrt(5) - 1)
+    for _ in range(40):
+        left, right = high - golden * (high - low), low + golden * (high - low)
+        if misfit(left) < misfit(right):
+            high = right
+        else:
+            low = left
+    return 0.5 * (low + high)
+
+
+def sphere(lammps):
+    rows = []
+    terms = f"volume 100.0 {4 * math.pi / 3!r}"
+    ball = HEAD + "region box block -3 3 -3 3 -3 3\ncreate_box 1 box angle/types 1\ncreate_membrane 1 {}\n" \
+        f"pair_style helfrich\npair_coeff 1 1 1.0 0.0 {terms}\n"
+    for level in (2, 3, 4):
+        points, faces = mesh_of(lammps.run(ball.format(f"sphere {level} 1.0 interpolate yes") +
+                                           "min_style membrane\nminimize 0 0 50 2000\nwrite_data mesh.data nocoeff\n",
+                                           fetch="mesh.data"))
+        share = areas(points, faces)
+        shape = [[c * (1 + 1e-5 * (1.5 * p[2]**2 / sum(x * x for x in p) - 0.5)) for c in p] for p in points]
+        off = f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%.17g %.17g %.17g\n" % tuple(p) for p in shape) + \
+            "".join("3 %d %d %d\n" % face for face in faces)
+        for name, mass in (("equal", [4 * math.pi / len(share)] * len(share)),
+                           ("as the areas", [4 * math.pi * a / sum(share) for a in share])):
+            files = {"ball.off": off,
+                     "mass.txt": f"{len(mass)}\n" + "".join(f"{i} {m!r}\n" for i, m in enumerate(mass, 1))}
+            script = ball.format("file ball.off") + "variable mass atomfile mass.txt\nset group all mass v_mass\n"
+            dt = 0.5 * number("stability limit", lammps.run(script + "hd_timestep all\n", files))
+            steps = round(1.5 * 2 * math.pi / math.sqrt(24.0) / dt)
+            rows_of_run = thermo(lammps.run(script + f"""
+compute         m all hd/modes sphere 2
+compute         s all membrane/shape
+fix             1 all hd/nve
+thermo_style    custom step c_m[7][4] c_m[1] c_s[1]
+thermo_modify   norm no format float %.17g
+timestep        {dt:.17g}
+thermo          {max(1, steps // 120)}
+run             {steps}
+""", files))
+            _, _, radius, area = rows_of_run[0]
+            theory = math.sqrt(24.0 * area / (4 * math.pi)) / radius**2
+            omega = frequency_of([row[0] * dt for row in rows_of_run], [row[1] for row in rows_of_run], theory)
+            rows.append([name, len(mass), omega / theory - 1])
+    return ["masses", "points", "error"], rows
+
+
+# === Waves in equilibrium: what the mean power of one costs to a standard error of 1 %, and the mesh's error
+
+def sheet(nx, ny, terms):
+    return HEAD + f"""
+region          box block 0 {nx} 0 {ny * math.sqrt(0.75):.17g} -6 6
+create_box      1 box angle/types 1
+create_membrane 1 plane {nx} {ny} mass {math.sqrt(0.75):.17g}
+comm_modify     cutoff 5.0
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0 {terms}
+compute         m all hd/modes plane 1
+"""
+
+
+def correlation_time(series, dt):
+    """Integral of the autocorrelation of the square of a Gaussian amplitude, which is the square of that of
+    the amplitude; summed up to five times itself."""
+    n = len(series)
+    variance, total = sum(x * x for x in series) / n, 0.5
+    for lag in range(1, n // 10):
+        total += (sum(map(float.__mul__, series[:-lag], series[lag:])) / (n - lag) / variance)**2
+        if lag > 5 * total:
+            break
+    return total * dt
+
+
+def sampling(lammps):
+    rows, kT = [], 1e-4
+    methods = {("langevin", mass): f"hd/langevin {kT} {kT} {{damp!r}} 4711 mass {mass} tol 1e-6" for mass in ("vertex", "lumped")}
+    methods |= {("brownian", mass): f"hd/brownian {kT} 4711 gamma_t {math.sqrt(0.75)!r} mass {mass} tol 1e-6"
+                for mass in ("vertex", "lumped")}
+    ratios = {method: [] for method in methods}    # a step of a large sheet, in LJ units
+    for _ in range(5):
+        for method, fix in methods.items():
+            lammps.measure_unit()
+            output = lammps.run(sheet(48, 48, "regularize 0.1") + f"fix 1 all {fix.format(damp=3.0)}\nfix_modify 1 check no\n"
+                                "timestep 0.005\nthermo 1000000\nrun 200\n")
+            ratios[method].append(lammps.per_point(output, "Loop") / lammps.units[-1])
+    for edges, ny in ((6, 8), (8, 10), (12, 14), (16, 18)):
+        q = 2 * math.pi / edges
+        still = thermo(lammps.run(sheet(edges, ny, "") + f"""
+variable        z atom 1e-5*cos({q!r}*x)
+set             group all z v_z
+thermo_style    custom step pe c_m[3][6]
+thermo_modify   norm no format float %.15g
+run             0
+"""))[0]
+        mesh = edges * ny * math.sqrt(0.75) * q**4 * still[2] / still[1] - 1
+        for (name, mass), fix in methods.items():
+            if name == "brownian" and (edges > 12 or mass == "vertex" and edges > 8):
+                continue    # much too long
+            # damp: the wave's own time, near critical damping; drag: tau = 1/q^4
+            fix = fix.format(damp=0.5 / q**2)
+            setup = sheet(edges, ny, "regularize 0.1") + f"fix 1 all {fix}\nfix_modify 1 check no\n"
+            dt = 0.5 * number("stability limit", lammps.run(setup + "hd_timestep all\n"))
+            every = max(1, int((1 / q**2 if name == "langevin" else 1 / q**4) / 8 / dt))
+            output = lammps.run(setup + f"""
+timestep        {dt:.12g}
+thermo          1000000
+run             {every * 100}
+thermo_style    custom step c_m[3][4] c_m[3][5]
+thermo_modify   norm no format float %.9g
+thermo          {every}
+run             {every * 4000}
+""")
+            table = thermo(output)
+            tau = sum(correlation_time([row[k] for row in table], every * dt) for k in (1, 2)) / 2
+            needed = 1e4 * 2 * tau / dt    # the relative variance of a wave's power is 1; 2 tau lie between samples
+            step = statistics.median(ratios[name, mass])
+            # edges^2 / sqrt(3/4) points in a wavelength squared
+            rows.append([name, mass, edges, dt, tau, needed * edges**2 / math.sqrt(0.75) * step, step, mesh])
+    return ["integrator", "mass", "edges a wave", "timestep", "correlation time", "cost of 1 %", "cost of a step",
+            "error of the mesh"], rows
+
+
+def plot_sampling(axes, rows):
+    for name, mass in (("langevin", "vertex"), ("langevin", "lumped"), ("brownian", "vertex"), ("brownian", "lumped")):
+        mine = [row for row in rows if row[:2] == [name, mass]]
+        axes.loglog([row[2] for row in mine], [row[5] for row in mine], color=STYLE[mass][0], marker=STYLE[mass][1],
+                    linestyle="-" if name == "langevin" else "--", label=f"hd/{name}, mass {mass}")
+    axes.set_xticks([6, 8, 12, 16], ["6", "8", "12", "16"])
+    axes.minorticks_off()
+    axes.set(xlabel="edges a wave", ylabel="cost of its mean power to 1 %\n(LJ atom-steps for a wavelength squared)",
+             title="Sampling the slowest wave of a sheet, half the stability limit")
+    axes.legend(fontsize=8, loc="lower right")
+
+
+# === The same at the temperature of a lipid bilayer, kc = 20 kT, where edges and with them the limit vary
+
+def hot(lammps):
+    rows, kT = [], 0.05
+    for mass, limit in (("vertex", 0.204124), ("lumped", 0.649519)):    # of the flat sheet
+        for fraction in (0.0625, 0.125, 0.25, 0.375, 0.5):
+            dt = fraction * limit
+            steps = round(4000 / dt)
+            code, output = lammps.attempt(sheet(12, 14, "regularize 0.5") + f"""
+fix             1 all hd/langevin {kT} {kT} 3.0 4711 mass {mass} tol 1e-8
+compute         hf all pair helfrich
+compute         s all membrane/shape
+thermo_style    custom step c_hf[1] c_s[9] c_s[7] c_s[8]
+thermo_modify   norm no
+timestep        {dt:.12g}
+thermo          {max(1, steps // 20000)}
+run             {steps}
+""")
+            table = thermo(output)
+            if code:
+                rows.append([mass, fraction, "", "", "", "", f"stops after step {table[-1][0]:.0f}"])
+                continue
+            table = table[len(table) // 20:]
+            values = [row[1] / (168 * kT) for row in table]
+            blocks = [statistics.mean(values[len(values) * i // 20:len(values) * (i + 1) // 20]) for i in range(20)]
+            rows.append([mass, fraction, statistics.mean(blocks), statistics.stdev(blocks) / math.sqrt(20),
+                         min(row[2] for row in table), max(row[4] for row in table), "runs"])
+    return ["mass", "timestep over limit", "bending energy of a point in kT", "standard error", "smallest angle",
+            "longest edge", ""], rows
+
+
 STUDIES = {"energy": (energy, plot_energy), "modes": (modes, plot_modes), "steps": (steps, plot_steps),
-           "thermal": (thermal, plot_thermal)}
+           "thermal": (thermal, plot_thermal), "relaxed": (relaxed, plot_relaxed), "sphere": (sphere, None),
+           "sampling": (sampling, plot_sampling), "hot": (hot, None)}
 
 
 def main():
@@ -307,9 +579,12 @@ def main():
         print(f"\n{name}\n" + "".join(f"{word:>24}" for word in head))
         for row in rows:
             print("".join(f"{x:24.3g}" if isinstance(x, float) else f"{x:>24}" for x in row), flush=True)
+        os.makedirs(options.out, exist_ok=True)
         path = os.path.join(options.out, name)
         with open(path + ".csv", "w", newline="") as table:
             csv.writer(table).writerows([head] + rows)
+        if not draw:
+            continue
         try:
             import matplotlib
             matplotlib.use("Agg")

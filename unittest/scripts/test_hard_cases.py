@@ -42,9 +42,9 @@ for n in (3, 4, 5, 7, 8, 10, 12, 14, 16):
     write_off(f"valence{n}.off", *bipyramid(n))
     CASES[f"valence {n}"] = scene(f"create_membrane 1 file valence{n}.off refine 2")
 for ratio in (10, 50):
-    height = 8 / ratio    # edges 1 and 1/ratio
-    CASES[f"edge ratio {ratio}"] = scene("create_membrane 1 plane 8 8\ndisplace_atoms all random 0 0 0.002 1",
-                                         box=f"0 8 0 {height} -2 2", tiny=1e-8)
+    for name, box in ((f"needles, edge ratio {ratio}", f"0 {8 / ratio} 0 8 -2 2"),
+                      (f"flat triangles, base {ratio} times the height", f"0 8 0 {8 / ratio} -2 2")):
+        CASES[name] = scene("create_membrane 1 plane 8 8\ndisplace_atoms all random 0 0 0.002 1", box=box, tiny=1e-8)
 # a dumbbell: the icosphere with its waist drawn in to a hundredth of its radius
 points, faces = read_off(os.path.join(REFERENCE, "icosphere_2.off"))
 write_off("neck.off", [(x * w, y * w, 1.5 * z) for x, y, z in points
