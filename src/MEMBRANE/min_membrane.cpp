@@ -36,6 +36,7 @@ using namespace LAMMPS_NS;
 using Membrane_NS::BendingMetric;
 
 static constexpr double EPS_ENERGY = 1.0e-8;
+static constexpr int SMALL_GAINS = 10;        // in short steps, one after another, end the search
 static constexpr double MOST_STRAIN = 0.3;    // of an edge, in one iteration
 
 /* ---------------------------------------------------------------------- */
@@ -228,6 +229,7 @@ int MinMembrane::search(double &alpha)
 int MinMembrane::iterate(int maxiter)
 {
   pairs = newest = 0;
+  int small_gains = 0;
   for (int iter = 0; iter < maxiter; ++iter) {
     if (timer->check_timeout(niter)) return TIMEOUT;
     const bigint ntimestep = ++update->ntimestep;
@@ -264,9 +266,15 @@ int MinMembrane::iterate(int maxiter)
     }
 
     if (neval >= update->max_eval) return MAXEVAL;
+
+    // a small gain ends the search unless the step was a short one, which gains little anywhere;
+    // of those it takes several in a row
+
     if (std::fabs(ecurrent - eprevious) <
-        update->etol * 0.5 * (std::fabs(ecurrent) + std::fabs(eprevious) + EPS_ENERGY))
-      return ETOL;
+        update->etol * 0.5 * (std::fabs(ecurrent) + std::fabs(eprevious) + EPS_ENERGY)) {
+      if (alpha_final >= 0.5 || ++small_gains == SMALL_GAINS) return ETOL;
+    } else
+      small_gains = 0;
     if (update->ftol > 0.0) {
       const double fdotf = normstyle == MAX ? fnorm_max() : normstyle == INF ? fnorm_inf()
                                                                             : fnorm_sqr();
