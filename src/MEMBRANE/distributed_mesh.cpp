@@ -39,8 +39,9 @@ using Membrane_NS::MeshError;
 using Membrane_NS::PatchRules;
 using Membrane_NS::Topology;
 
-// the ghost cutoff covers stencils that grow by this factor before the next run
-static constexpr double REACH_MARGIN = 1.25;
+// the ghost cutoff covers stencils that grow by this factor before the next run; edges of a fluid
+// membrane of kc = 20 kT come to twice their length
+static constexpr double REACH_MARGIN = 2.0;
 
 static constexpr char MISSING_ATOM[] =
     "Control point {} is used by a face but is not an atom: delete whole membranes only, with "

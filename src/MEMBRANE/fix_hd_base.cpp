@@ -38,6 +38,9 @@ using namespace FixConst;
 // a control point that moves further than this fraction of the longest edge in one step is lost
 static constexpr double MOST_DRIFT = 0.25;
 
+// longest over shortest edge at a point from which on the mesh is said to have lost its shape
+static constexpr double SHORT_EDGE = 3.0;
+
 // the limit of stability, to a few percent, takes two force evaluations for each of these steps; runs
 // that are shorter would notice the cost and go without
 static constexpr int LANCZOS_STEPS = 6;
@@ -233,11 +236,38 @@ void FixHDBase::report_runaway(tagint id_of_point)
         fmt::format("timestep {} is beyond the stability limit of about {:.3g}", update->dt, limit);
   else if (limit > 0.0)
     reason +=
-        fmt::format(", though the stability limit was about {:.3g} when the run began", limit);
+        fmt::format(", though the stability limit was about {:.3g} when the run began{}", limit,
+                    shape_lost_at(id_of_point));
   error->one(FLERR,
              "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
              "hd_timestep finds the limit precisely",
              style, id_of_point, MOST_DRIFT, reason);
+}
+
+// a mesh that has lost its shape is stable for shorter timesteps only
+
+std::string FixHDBase::shape_lost_at(tagint id_of_point)
+{
+  DistributedMesh &mesh = mass.mesh();
+  const auto &topology = mesh.topology();
+  const int v = mesh.vertex(id_of_point), i = atom->map(id_of_point);
+  if (v < 0 || i < 0) return "";
+  double shortest = INFINITY, longest = 0.0;
+  for (int w : topology.ring(v)) {
+    const int j = mesh.find_neighbor(i, w);
+    if (j < 0) continue;
+    double square = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double d = atom->x[j][k] - atom->x[i][k];
+      square += d * d;
+    }
+    shortest = MIN(shortest, square);
+    longest = MAX(longest, square);
+  }
+  if (!(longest > SHORT_EDGE * SHORT_EDGE * shortest)) return "";
+  return fmt::format(", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
+                     "{:.3g}; keep it with regularize in pair_coeff",
+                     std::sqrt(shortest), std::sqrt(longest));
 }
 
 double FixHDBase::memory_usage()

@@ -69,6 +69,7 @@ class FixHDBase : public Fix {
   void check_other_integrators();
   void find_limit();
   void report_runaway(tagint);
+  std::string shape_lost_at(tagint);
 };
 
 }    // namespace LAMMPS_NS

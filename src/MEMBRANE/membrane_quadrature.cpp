@@ -24,17 +24,25 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Weights = LimitBasis::Weights;
 
+static const std::map<std::string, Quadrature> NAMES = {{"1", Quadrature::ONE},
+                                                        {"3", Quadrature::THREE},
+                                                        {"6", Quadrature::SIX},
+                                                        {"12", Quadrature::TWELVE},
+                                                        {"careful", Quadrature::CAREFUL}};
+
 bool Membrane_NS::parse_quadrature(const std::string &word, Quadrature &quadrature)
 {
-  static const std::map<std::string, Quadrature> names = {{"1", Quadrature::ONE},
-                                                          {"3", Quadrature::THREE},
-                                                          {"6", Quadrature::SIX},
-                                                          {"12", Quadrature::TWELVE},
-                                                          {"careful", Quadrature::CAREFUL}};
-  const auto found = names.find(word);
-  if (found == names.end()) return false;
+  const auto found = NAMES.find(word);
+  if (found == NAMES.end()) return false;
   quadrature = found->second;
   return true;
+}
+
+std::string Membrane_NS::quadrature_name(Quadrature quadrature)
+{
+  for (const auto &[name, value] : NAMES)
+    if (value == quadrature) return name;
+  return "";
 }
 
 /* ----------------------------------------------------------------------

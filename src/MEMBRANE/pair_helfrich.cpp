@@ -45,6 +45,9 @@ enum { BENDING, GAUSSIAN, AREA, VOLUME, TOTAL_AREA, TOTAL_VOLUME, REGULARIZATION
 // a face whose D/A is beyond this is about to turn over
 static constexpr double WORST_FACE = 50.0;
 
+// of the bending energy and of kc: beyond it a warning at the end of a run
+static constexpr double MOST_QUADRATURE_ERROR = 0.1;
+
 /* ---------------------------------------------------------------------- */
 
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
@@ -542,6 +545,54 @@ void PairHelfrich::clear_ghost_tallies()
     if (eflag_atom) eatom[i] = 0.0;
     if (vflag_atom) std::fill_n(vatom[i], 6, 0.0);
   }
+}
+
+/* ----------------------------------------------------------------------
+   at the end of a run: does a finer rule see the same energy? Between the points of quadrature a
+   surface may fold unseen, which a minimization without regularize is sure to find
+------------------------------------------------------------------------- */
+
+void PairHelfrich::finish()
+{
+  if (quadrature == Quadrature::CAREFUL) return;
+  mesh->refresh();
+  const auto finer = quadrature == Quadrature::TWELVE ? Quadrature::CAREFUL : Quadrature::TWELVE;
+  const int nall = atom->nlocal + atom->nghost;
+  std::vector<double> scratch(3 * (size_t) nall + 3);
+  const auto x = nall ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
+  const auto f = reinterpret_cast<double(*)[3]>(scratch.data());
+
+  const auto bending = [&] {
+    Membrane_NS::FaceEnergies found;
+    found.bending.resize(count_slots(groups));
+    double mine = 0.0, all;
+    for (const FaceGroup &group : groups) {
+      face_forces(group, x, model, Membrane_NS::HelfrichTerms(), f, found);
+      for (int s = 0; s < group.nfaces; ++s) mine += found.bending[group.first_slot + s];
+    }
+    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+    return all;
+  };
+
+  localize();
+  const double here = bending();
+  auto kept = std::make_unique<PatchRules>(finer);
+  std::swap(rules, kept);
+  localize();
+  const double there = bending();
+  std::swap(rules, kept);
+  epoch = -1;
+
+  double largest_kc = 0.0;
+  for (const HelfrichCoefficients &c : coefficients) largest_kc = MAX(largest_kc, c.kc);
+  if (comm->me == 0 &&
+      !(std::fabs(there - here) <= MOST_QUADRATURE_ERROR * (there + largest_kc)))
+    error->warning(FLERR,
+                   "The bending energy is {:.6g} by quadrature {} but {:.6g} by quadrature {}: the "
+                   "mesh is too coarse for this shape, or has degraded; refine it, or keep it in "
+                   "shape with regularize in pair_coeff",
+                   here, Membrane_NS::quadrature_name(quadrature), there,
+                   Membrane_NS::quadrature_name(finer));
 }
 
 /* ----------------------------------------------------------------------

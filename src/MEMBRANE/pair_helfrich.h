@@ -42,6 +42,7 @@ class PairHelfrich : public Pair {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
+  void finish() override;
   double init_one(int, int) override;
 
   void write_restart(FILE *) override;
