@@ -1,5 +1,4 @@
 """compute membrane/shape and compute membrane/curvature/atom measure the limit surface."""
-# ranks: 2
 
 import math
 import os

@@ -1,5 +1,4 @@
 """dump membrane/image draws the limit surface: whole, smooth, in the right colors, on any rank."""
-# ranks: 4
 
 import glob
 import os

@@ -1,5 +1,4 @@
 """Bad input gets one LAMMPS error line that names the thing and the cure, on one rank and on two."""
-# ranks: 2
 
 import concurrent.futures
 import os
@@ -211,7 +210,7 @@ velocity        all set v_vx v_vy v_vz
 fix             1 all nve
 timestep        0.001
 run             200
-""", "which is beyond the communication cutoff 0.772542; raise it with comm_modify cutoff")
+""", "which is beyond the communication cutoff 1.23607; raise it with comm_modify cutoff")
 
 
 def errors(number, ranks, script):

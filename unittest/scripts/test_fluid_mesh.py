@@ -1,6 +1,5 @@
 """The mesh of a fluid membrane: a run stops before it folds, regularize keeps it, and stretched or
 coarse meshes are left alone. fix nve on control points is warned of."""
-# ranks: 2
 
 import math
 import re

@@ -1,5 +1,4 @@
 """compute hd/modes: plane waves and spherical harmonics of the limit surface."""
-# ranks: 4
 
 import cmath
 import math

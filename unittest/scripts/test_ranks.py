@@ -1,5 +1,4 @@
 """Energies and forces do not depend on how many ranks share the membranes, nor on how."""
-# ranks: 2
 
 from lammps_claims import claim, finish, run, thermo
 from membrane_scenes import SCENES, coefficients, largest, read_dump

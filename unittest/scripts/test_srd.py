@@ -1,5 +1,4 @@
 """fix srd/mesh without membranes: what is kept, ranks, restarts, walls, forces, boxes that change."""
-# ranks: 4
 
 from lammps_claims import claim, finish, lammps, run, thermo
 from membrane_scenes import read_dump

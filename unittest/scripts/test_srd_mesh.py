@@ -1,5 +1,4 @@
 """fix srd/mesh with membranes: what a collision keeps, that nothing passes, ranks, restarts, scenes."""
-# ranks: 4
 
 import math
 import os

@@ -1,5 +1,4 @@
 """hd_timestep finds the stability limit, leaves no trace, and the integrators stop beyond the limit."""
-# ranks: 2
 
 import math
 import re

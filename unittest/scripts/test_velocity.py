@@ -1,5 +1,4 @@
 """hd_velocity draws velocities from the thermal distribution of the mass matrix."""
-# ranks: 2
 
 import cmath
 import math

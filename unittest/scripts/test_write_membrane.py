@@ -1,5 +1,4 @@
 """write_membrane writes the limit surface, or the control mesh, exactly and from any state."""
-# ranks: 4
 
 import base64
 import os
