@@ -8,9 +8,9 @@ import sys
 from lammps_claims import EXAMPLES, claim, finish, run
 
 
-def example(name, *changes):
+def example(name, *changes, script="in.membrane"):
     """What an example prints, its long runs cut short."""
-    script = open(os.path.join(EXAMPLES, name, "in.membrane")).read()
+    script = open(os.path.join(EXAMPLES, name, script)).read()
     for long, short in changes:
         claim(f"{name} has {long!r}", long in script)
         script = script.replace(long, short)
@@ -42,5 +42,15 @@ example("flicker", ("200 2000", "20 200"), ("run             40000", "run       
 code, ratios = plotted("flicker")
 mean = sum(ratios) / len(ratios)
 claim("flicker: the spectrum is near theory", code == 0 and len(ratios) == 9 and abs(mean - 1) < 0.1, f"{mean:.3f}")
+
+example("relaxation_srd", ("loop 6", "loop 2"), ("run             2000", "run             1000"), script="in.plane")
+example("relaxation_srd", ("loop 6", "loop 2"), script="in.vesicle")
+shutil.copy(os.path.join(EXAMPLES, "relaxation_srd", "plot.py"), ".")
+code = subprocess.run([sys.executable, "plot.py"]).returncode
+for name in ("plane", "vesicle"):
+    rows = [[float(word) for word in line.split()] for line in open(name + ".txt") if not line.startswith("#")]
+    early = sum(row[1] - row[3] for row in rows[:len(rows) // 3]) / (len(rows) // 3)
+    claim(f"relaxation_srd: {name} relaxes, at first near theory", code == 0 and abs(early) < 0.3 and rows[-1][1] < 0.9,
+          f"{early:+.3f}, {rows[-1][1]:.3f} in the end")
 
 finish()
