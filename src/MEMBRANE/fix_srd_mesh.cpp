@@ -530,7 +530,7 @@ void FixSRDMesh::pre_force(int)
 void FixSRDMesh::end_of_step()
 {
   if (domain->box_change) cells->grid.setup(cell_settings.size);
-  if (have_obstacle) obstacle->join_cells(*cells, update->ntimestep);
+  if (have_obstacle) obstacle->join_cells(*cells, update->ntimestep, kT());
   cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
   if (have_obstacle) obstacle->leave_cells(*cells);
 }

@@ -51,7 +51,7 @@ static constexpr double FIRST_SLACK = 0.02, MOST_SLACK = 0.15;
 static constexpr double SPACING = 0.5;
 
 // of the random numbers that say with which side a point mass collides
-static constexpr uint64_t SIDE_SEED = 0x73696465;
+static constexpr uint64_t SIDE_SEED = 0x73696465, HELD_SEED = 0x68656c64;
 
 // solvent faster than this, in root mean squares, gets a closer look everywhere
 static constexpr double FAST = 2.5;
@@ -305,10 +305,10 @@ void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double 
 
 /* ----------------------------------------------------------------------
    solvent that bounces back at a surface still slips where cells are cut by it, unless the surface
-   itself has mass in these cells
+   itself has mass in these cells. What is held is a wall: it has the temperature of the solvent
 ------------------------------------------------------------------------- */
 
-void SurfaceObstacle::join_cells(SRDCells &cells, bigint step)
+void SurfaceObstacle::join_cells(SRDCells &cells, bigint step, double kT)
 {
   if (!settings.no_slip) return;
   VertexField position;
@@ -318,6 +318,11 @@ void SurfaceObstacle::join_cells(SRDCells &cells, bigint step)
   cells.others.clear();
   for (int i = 0; i < part.owned; ++i) {
     const tagint tag = atom->tag[part.atom_of(i)];
+    if (!motion.is_free(part.vertices[i])) {
+      double v[3];
+      Membrane_NS::thermal_velocity(HELD_SEED, step, tag, kT, motion.mass_of(part.vertices[i]), v);
+      for (int k = 0; k < 3; ++k) joined[i].c[k] += v[k];
+    }
     cells.others.add(position[i].c, joined[i].c, motion.mass_of(part.vertices[i]), tag,
                      random.uniforms(tag, 0)[0] < 0.5);
   }

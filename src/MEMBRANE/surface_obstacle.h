@@ -58,8 +58,9 @@ class SurfaceObstacle : protected Pointers {
   /// From post_integrate(), after control points have moved: solvent moves for the time dt.
   void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
   /** Around a collision in cells, if the surface does not slip: the point masses take part in it, each
-      with the solvent on one of its sides, drawn anew for each step. */
-  void join_cells(SRDCells &cells, bigint step);
+      with the solvent on one of its sides, drawn anew for each step; what is held, with thermal
+      velocities of kT. */
+  void join_cells(SRDCells &cells, bigint step, double kT);
   void leave_cells(SRDCells &cells);
   /// From final_integrate().
   void remember() { motion.remember(); }

@@ -17,11 +17,15 @@ def example(name, *changes, script="in.membrane"):
     return run(script)
 
 
-def plotted(name):
+def plotted(name, table="spectrum.txt"):
+    """Exit code of the example's plot.py, and the rows of its table."""
     shutil.copy(os.path.join(EXAMPLES, name, "plot.py"), ".")
     done = subprocess.run([sys.executable, "plot.py"], stdout=subprocess.PIPE, text=True)
-    rows = [line.split() for line in open("spectrum.txt")][1:]
-    return done.returncode, [float(row[-3]) for row in rows]
+    return done.returncode, [line.split() for line in open(table)][1:]
+
+
+def ratios_of(rows):
+    return [float(row[-3]) for row in rows]
 
 
 output = example("vesicle_nve")
@@ -34,12 +38,14 @@ lines = output.split("\n")
 start = max(i for i, line in enumerate(lines) if line.split() == ["nx", "ny", "q", "omega", "omega/q^2"])
 ratios = [float(line.split()[4]) for line in lines[start + 1:start + 5]]
 claim("plane: omega = q^2 within 3e-4", all(abs(ratio - 1) < 3e-4 for ratio in ratios), ratios)
-code, ratios = plotted("plane")
+code, rows = plotted("plane")
+ratios = ratios_of(rows)
 mean = sum(ratios) / len(ratios)
 claim("    and its spectrum is near theory", code == 0 and len(ratios) == 21 and abs(mean - 1) < 0.05, f"{mean:.3f}")
 
 example("flicker", ("200 2000", "20 200"), ("run             40000", "run             4000"))
-code, ratios = plotted("flicker")
+code, rows = plotted("flicker")
+ratios = ratios_of(rows)
 mean = sum(ratios) / len(ratios)
 claim("flicker: the spectrum is near theory", code == 0 and len(ratios) == 9 and abs(mean - 1) < 0.1, f"{mean:.3f}")
 
@@ -52,5 +58,15 @@ for name in ("plane", "vesicle"):
     early = sum(row[1] - row[3] for row in rows[:len(rows) // 3]) / (len(rows) // 3)
     claim(f"relaxation_srd: {name} relaxes, at first near theory", code == 0 and abs(early) < 0.3 and rows[-1][1] < 0.9,
           f"{early:+.3f}, {rows[-1][1]:.3f} in the end")
+
+output = example("poiseuille", ("20 250 5000 layer", "20 50 1000 layer"), ("20 250 5000 v_speed", "20 50 1000 v_speed"),
+                 ("index 1000 1000 3000 15000 20000", "index 500 500 500 1500 2000"),
+                 script="in.poiseuille")
+code, rows = plotted("poiseuille", "flow.txt")
+*profile, last = rows
+speed, mean, without = float(last[1]), float(last[7].rstrip(",")), float(last[10])
+claim("poiseuille: the vesicle takes away some of the flow, and is faster than its mean",
+      code == 0 and len(profile) == 24 and 0.7 < mean / without < 1.0 and mean < speed < 1.5 * without,
+      f"vesicle {speed:.3f}, mean {mean:.3f}, without vesicle {without:.3f}")
 
 finish()

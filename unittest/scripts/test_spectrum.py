@@ -14,10 +14,10 @@ have. Seeds are fixed.
 
 import math
 import os
-from statistics import NormalDist
 
 from lammps_claims import claim, finish, run, thermo
 from lattice_waves import EDGES, dot, stiffness, surface, thermal_factor
+from mode_statistics import averages, chi_squared_limit, compare, mean_and_error
 
 LONG = bool(os.environ.get("MEMBRANE_LONG"))
 BLOCKS, EVERY = 32, 10
@@ -31,50 +31,6 @@ def length(steps):
 
 def run_length(steps):
     return 1000000 if LONG else steps
-
-
-def averages(path):
-    """Blocks of a fix ave/time file, mode vector: each a list with a value for each row."""
-    blocks, missing = [], 0
-    with open(path) as file:
-        for words in (line.split() for line in file if not line.startswith("#")):
-            if missing:
-                blocks[-1].append(float(words[1]))
-                missing -= 1
-            else:
-                blocks.append([])
-                missing = int(words[1])
-    return blocks
-
-
-def mean_and_error(values):
-    mean = sum(values) / len(values)
-    return mean, math.sqrt(sum((v - mean) ** 2 for v in values) / (len(values) - 1) / len(values))
-
-
-def chi_squared_limit(n):
-    """What 99 % of sums of n squared normal numbers are below (Wilson and Hilferty)."""
-    z = NormalDist().inv_cdf(0.99)
-    return n * (1 - 2 / (9 * n) + z * math.sqrt(2 / (9 * n))) ** 3
-
-
-def compare(text, spectrum):
-    """Claims about {mode: (mean, error)} of the ratio of measured to expected powers; prints all."""
-    n = len(spectrum)
-    deviation = {key: (mean - 1) / error for key, (mean, error) in spectrum.items()}
-    for key, (mean, error) in spectrum.items():
-        print(f"       {key}: {mean:.4f} +- {error:.4f}, {deviation[key]:+.2f} standard errors")
-    worst = max(map(abs, deviation.values()))
-    squares = sum(d * d for d in deviation.values())
-    outside = sum(abs(d) > 2 for d in deviation.values())
-    limit = NormalDist().inv_cdf(0.5 + 0.5 * 0.99 ** (1 / n))
-    weight = sum(error ** -2 for _, error in spectrum.values())
-    mean = sum(mean / error ** 2 for mean, error in spectrum.values()) / weight
-    claim(f"{text}: {n} groups of modes have the powers of theory", worst < limit and squares < chi_squared_limit(n),
-          f"largest deviation {worst:.2f} standard errors (limit {limit:.2f}), {outside} beyond 2, "
-          f"chi^2 {squares:.1f} (limit {chi_squared_limit(n):.1f})")
-    claim(f"{text}: all together", abs(mean - 1) < 2.6 * weight ** -0.5 and weight ** -0.5 < 0.01,
-          f"{mean:.4f} +- {weight ** -0.5:.4f} of theory")
 
 
 def agree(text, one, other):

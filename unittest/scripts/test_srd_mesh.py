@@ -260,6 +260,30 @@ for name, scene in SCENES.items():
         energy = [row["c_ks"] for row in rows]
         claim("    solvent keeps its energy", max(energy) / min(energy) - 1 < 1e-12, max(energy) / min(energy) - 1)
 
+# a sheet that is held and does not slip is a wall of the solvent's temperature: it neither heats nor cools
+
+output = run("""
+units           lj
+atom_style      membrane_cp
+region          box block 0 8 0 7 0 8
+create_box      2 box angle/types 1
+create_membrane 1 plane 8 8 mass 8.75
+create_solvent  2 both 10 8341
+group           membrane type 1
+group           solvent type 2
+pair_style      helfrich
+pair_coeff      1 1 100.0 0.0
+fix             2 solvent srd/mesh 1 membrane 1.0 1.0 4711 angle 130 shift yes 9127 collision noslip
+compute         T solvent temp
+thermo_style    custom step c_T
+thermo          20
+timestep        0.1
+run             2000
+""")
+temperatures = [row["c_T"] for row in thermo(output)[10:]]
+mean = sum(temperatures) / len(temperatures)
+claim("a held sheet without slip keeps the solvent at its temperature", abs(mean - 1) < 0.015, f"{mean:.4f}")
+
 for name in ("the same, no slip", "sheet, no slip"):
     scene = SCENES[name]
     for ranks in (1, 2):

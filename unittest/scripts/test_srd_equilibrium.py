@@ -1,0 +1,112 @@
+"""fix srd/mesh: a membrane that hd/nve moves, without a noise of its own, takes the temperature of the solvent
+around it, and has the undulations of theory: in equilibrium they do not depend on what surrounds it.
+
+A sheet of 8 x 8 points, kc = 200 kT, in a periodic box of solvent with the only thermostat. Theory for the sheet is
+that of the discrete system without solvent, as in test_spectrum.py, and of the integrator: velocity Verlet with
+velocities of temperature T gives a wave of frequency w the power 1/(1 - (w dt)^2/4). Such a wave moves the solvent
+within 1/q on its two sides,
+
+    w^2 = kc q^4/(rho_s + 2 rho/q),
+
+and forgets in some 2 (rho_s + 2 rho/q)/(4 eta q), 4 time units for the longest wave: the run has hundreds of
+these, with MEMBRANE_LONG=1 thousands. Without slip the points of the membrane take part in collisions of cells, and
+so in the thermostat. With slip they only meet solvent that bounces off along the normal: then the temperature of
+motion across the sheet is compared, since motion along it has nothing but bending to exchange energy with, and
+takes far longer than this run to reach equilibrium.
+
+Collisions with the surface use velocities of the middle of a step, whose energy is larger than that at its ends by
+(w dt)^2/4: on average over all waves of the sheet in vacuum 2 % at this timestep, a quarter of its limit. A membrane
+that meets solvent in such collisions alone is up to so much colder than the solvent.
+
+    MEMBRANE_LONG=1    seven times as long, and collision slip, too
+"""
+# timeout: 3600
+
+import math
+import os
+
+from lammps_claims import claim, finish, run
+from lattice_waves import EDGES, inertia, stiffness, surface
+from mode_statistics import averages, compare, mean_and_error
+
+LONG = bool(os.environ.get("MEMBRANE_LONG"))
+BLOCKS, EVERY, STEPS = 32, 20, (20000 if LONG else 3000)    # of a block
+N, NMAX, HEIGHT, KC, M, VERTEX_MASS, DT = 8, 2, 8, 200.0, 5, 10.0, 0.01
+WIDTH, DEPTH = N, N * EDGES[1][1]
+AREA = WIDTH * DEPTH
+WAVES = [(0, ny) for ny in range(1, NMAX + 1)] + [(nx, ny) for nx in range(1, NMAX + 1) for ny in range(-NMAX, NMAX + 1)]
+
+# The edge of cells is 1 but 0.99 along y, so the sheet can be regular. Of the membrane's degrees of freedom,
+# the momentum of all takes the part 3 m/(total mass)
+POINTS = N * N
+TOTAL = POINTS * VERTEX_MASS + round(M * AREA * HEIGHT)
+SCRIPT = f"""
+units           lj
+atom_style      membrane_cp
+region          box block 0 {WIDTH} 0 {DEPTH!r} 0 {HEIGHT}
+create_box      2 box angle/types 1
+create_membrane 1 plane {N} {N} mass {VERTEX_MASS}
+create_solvent  2 both {M} 8341
+group           membrane type 1
+group           solvent type 2
+special_bonds   lj/coul 1 1 1
+pair_style      helfrich
+pair_coeff      1 1 {KC} 0.0 regularize {0.5 * KC}
+fix             1 membrane hd/nve
+fix             srd solvent srd/mesh 10 membrane 1.0 1.0 4711 angle 130 shift yes 9127 tstat yes cubic error 0.02 &
+                collision {{collision}}
+compute         m membrane hd/modes plane {NMAX}
+compute         T membrane hd/temp
+compute_modify  T extra/dof {3 * POINTS * VERTEX_MASS / TOTAL!r}
+variable        across equal c_T[3]/{POINTS - POINTS * VERTEX_MASS / TOTAL!r}
+thermo_style    custom step c_T f_srd[1] f_srd[3]
+thermo_modify   norm no
+timestep        {DT}
+thermo          {STEPS}
+run             {2 * STEPS}
+reset_timestep  0
+fix             a all ave/time {EVERY} {STEPS // EVERY} {STEPS} c_m[6] mode vector file power.txt
+fix             t all ave/time {EVERY} {STEPS // EVERY} {STEPS} c_T v_across f_srd[1] f_srd[3] file temperature.txt
+run             {BLOCKS * STEPS}
+"""
+
+
+def expected(wave):
+    q = (2 * math.pi * wave[0] / WIDTH, 2 * math.pi * wave[1] / DEPTH)
+    size = math.hypot(*q)
+    square = KC * size ** 4 / (VERTEX_MASS / EDGES[1][1] + 2 * M / size)
+    return surface(q) ** 2 / (AREA * KC * stiffness(q, 6)) / (1 - square * DT * DT / 4)
+
+
+def middle_of_step():
+    """Mean of (w dt)^2/4 over all waves of the sheet in vacuum."""
+    waves = [(2 * math.pi * nx / WIDTH, 2 * math.pi * ny / DEPTH) for nx in range(N) for ny in range(N)]
+    squares = [KC * stiffness(q, 6) / (VERTEX_MASS / EDGES[1][1] * inertia(q, "vertex")) for q in waves]
+    return sum(squares) / len(squares) * DT * DT / 4
+
+
+for collision, component in (("noslip", 0), ("slip", 1)):
+    if collision == "slip" and not LONG:
+        continue
+    run(SCRIPT.format(collision=collision), timeout=3600)
+    rows = [[float(word) for word in line.split()[1:]] for line in open("temperature.txt") if not line.startswith("#")]
+    membrane, solvent = (mean_and_error([row[k] for row in rows]) for k in (component, 2))
+    difference = mean_and_error([row[component] / row[2] - 1 for row in rows])
+    measured = f"membrane {membrane[0]:.4f} +- {membrane[1]:.4f}, solvent {solvent[0]:.4f} +- {solvent[1]:.4f}"
+    if collision == "noslip":
+        claim("noslip: membrane and solvent have the same temperature within 1 %",
+              abs(difference[0]) + 2 * difference[1] < 0.01, measured)
+    else:
+        colder = middle_of_step()
+        claim(f"slip: across the sheet, too, less at most the {100 * colder:.1f} % of the middle of a step",
+              -colder - 2 * difference[1] < difference[0] < 2 * difference[1] < 0.01, measured)
+    claim("    and no solvent has crossed", rows[-1][3] == 0.0)
+    blocks, groups = averages("power.txt"), {}
+    for i, wave in enumerate(WAVES):
+        size = math.hypot(2 * math.pi * wave[0] / WIDTH, 2 * math.pi * wave[1] / DEPTH)
+        groups.setdefault(f"qh = {size:.3f}", []).append((i, expected(wave)))
+    spectrum = {key: mean_and_error([sum(block[i] / power for i, power in members) / len(members) for block in blocks])
+                for key, members in sorted(groups.items())}
+    compare(f"{collision}, sheet in solvent", spectrum, 0.005 if LONG else 0.01)
+
+finish()
