@@ -193,7 +193,8 @@ pair_coeff      2 2 10.0 0.0 area 100.0 init volume 100.0 init
 create_solvent""") + "group vesicle type 2\nfix m vesicle hd/nve\n"
 code, output = lammps(both + fix().replace("solvent srd", "solvent srd").replace("timestep        0.02", "timestep 0.002") + "run 100\n", ranks=2)
 ghosts = [line for line in output.splitlines() if line.startswith("Nghost:")]
-claim("solvent around a vesicle is not in the ghost exchange", code == 0 and float(ghosts[0].split()[1]) <= 162, ghosts)
+# the ghost cutoff of 2.5 takes in the points of the other rank and some of their periodic images; solvent would be thousands
+claim("solvent around a vesicle is not in the ghost exchange", code == 0 and float(ghosts[0].split()[1]) <= 2 * 162, ghosts)
 output = run(both + fix("shift yes 9127 ghosts yes").replace("timestep        0.02", "timestep 0.002") + "run 100\n", ranks=2)
 ghosts = [line for line in output.splitlines() if line.startswith("Nghost:")]
 claim("ghosts yes: it is", float(ghosts[0].split()[1]) > 500, ghosts)
