@@ -30,6 +30,7 @@ enum class Quadrature { ONE, THREE, SIX, TWELVE, CAREFUL };
 
 /// From "1", "3", "6", "12", "careful"; false if it is none of these.
 bool parse_quadrature(const std::string &word, Quadrature &quadrature);
+/// The word for a rule.
 std::string quadrature_name(Quadrature quadrature);
 
 /// Points (u, v) and weights on the triangle 0 <= u, v, u+v <= 1; the weights sum to 1/2.

@@ -50,7 +50,8 @@ static constexpr double SKIN = 0.15;
 static constexpr double FIRST_SLACK = 0.02, MOST_SLACK = 0.15;
 static constexpr double SPACING = 0.5;
 
-// of the random numbers that say with which side a point mass collides
+// of the random numbers that say with which side a point mass collides, and of thermal velocities of
+// those that are held
 static constexpr uint64_t SIDE_SEED = 0x73696465, HELD_SEED = 0x68656c64;
 
 // solvent faster than this, in root mean squares, gets a closer look everywhere
