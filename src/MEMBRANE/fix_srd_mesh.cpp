@@ -51,7 +51,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
     cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
     set_velocities(true), ghosts(false), bounces(0), search(0.0),
-    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
+    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), membranes_join(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     clear_forces(false), values{}, carried{}, sampled(-1)
 {
@@ -415,6 +415,7 @@ void FixSRDMesh::setup(int)
 {
   sampled = -1;
   have_obstacle = obstacle && group->count(membrane) > 0;
+  membranes_join = have_obstacle && noslip;
   if (have_obstacle) obstacle->setup(solvent);
 }
 
@@ -480,13 +481,27 @@ void FixSRDMesh::kick()
   }
 }
 
+/* ----------------------------------------------------------------------
+   Point masses take part in the collisions of cells in the middle of a step, where their velocities
+   are those of their paths and have the variance kT/m: the place that noise has in fix hd/langevin. At
+   the end of a step velocities are smaller, for a wave of frequency w by (w dt)^2/4 of its energy, and
+   to meet solvent with the one in cells and with the other at the surface would pump energy into it.
+------------------------------------------------------------------------- */
+
 void FixSRDMesh::post_integrate()
 {
+  const double dt = update->dt;
   if (have_obstacle) {
     streaming.place_walls();
-    obstacle->stream(solvent, streaming.walls, update->dt);
+    obstacle->begin_step(dt);
+    if (membranes_join && is_due()) {
+      obstacle->stream(solvent, streaming.walls, 0.5 * dt);
+      collide();
+      obstacle->stream(solvent, streaming.walls, 0.5 * dt);
+    } else
+      obstacle->stream(solvent, streaming.walls, dt);
   } else
-    streaming.stream(solvent, update->dt);
+    streaming.stream(solvent, dt);
   sampled = -1;
   const bool due = is_due();
   if (due && aside.active() && !domain->deform_vremap)    // LAMMPS changes velocities, too
@@ -497,14 +512,19 @@ void FixSRDMesh::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   solvent that has strayed too far goes to its new owner in this step
+   solvent that has strayed too far goes to its new owner in this step: cells have to find it when it
+   collides next, at the end of a step or in the middle of the next
 ------------------------------------------------------------------------- */
 
 bool FixSRDMesh::any_strayed()
 {
   int mine = 0, any;
-  for (int i = solvent.first(); i < solvent.last() && !mine; ++i)
-    mine = cells->grid.strayed(atom->x[i]) && solvent.has(i);
+  const double ahead = membranes_join ? 0.5 * update->dt : 0.0;
+  for (int i = solvent.first(); i < solvent.last() && !mine; ++i) {
+    double x[3];
+    for (int k = 0; k < 3; ++k) x[k] = atom->x[i][k] + ahead * atom->v[i][k];
+    mine = cells->grid.strayed(x) && solvent.has(i);
+  }
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   return any;
 }
@@ -521,18 +541,17 @@ void FixSRDMesh::pre_force(int)
   if (have_forces) zero_forces();
 }
 
-/* ----------------------------------------------------------------------
-   Positions and velocities of control points are of the same time here and nowhere else in a step.
-   Were velocities of the middle of a step changed, forces of its end would do work that no later
-   step gives back: energy would drift as dt^2.
-------------------------------------------------------------------------- */
-
 void FixSRDMesh::end_of_step()
 {
+  if (!membranes_join) collide();
+}
+
+void FixSRDMesh::collide()
+{
   if (domain->box_change) cells->grid.setup(cell_settings.size);
-  if (have_obstacle) obstacle->join_cells(*cells, update->ntimestep, kT());
+  if (membranes_join) obstacle->join_cells(*cells, update->ntimestep, kT());
   cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
-  if (have_obstacle) obstacle->leave_cells(*cells);
+  if (membranes_join) obstacle->leave_cells(*cells);
 }
 
 void FixSRDMesh::min_pre_force(int)

@@ -85,6 +85,7 @@ class FixSRDMesh : public Fix {
   std::unique_ptr<HDMass> mass;    // of the membranes; none without them
   std::unique_ptr<SurfaceObstacle> obstacle;
   bool have_obstacle;              // there are membranes, and setup() has been there
+  bool membranes_join;             // their point masses take part in collisions in cells
   std::vector<int> side;           // of a membrane, by owned atom
   GhostFreeGroup aside;
 
@@ -112,6 +113,7 @@ class FixSRDMesh : public Fix {
   void report();
   void maxwell();
   void kick();
+  void collide();
   void zero_forces();
   bool is_due() const;
   bool any_strayed();

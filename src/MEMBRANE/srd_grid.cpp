@@ -25,6 +25,9 @@
 
 using namespace LAMMPS_NS;
 
+// in cells
+static constexpr double ROOM = 0.25;
+
 /* ---------------------------------------------------------------------- */
 
 SRDGrid::SRDGrid(LAMMPS *lmp, double size) :
@@ -118,10 +121,11 @@ void SRDGrid::hold(double reach)
     stray_lo[k] = lo[k] - more;
     stray_hi[k] = hi[k] + more;
 
-    // one cell lower for the shift, and one to either side for rounding
+    // one cell lower for the shift, and to either side some room for what a collision just before
+    // does to where a particle was foreseen
 
-    int first = static_cast<int>(std::floor(stray_lo[k] * n[k] - 1.0e-6)) - 1,
-        last = static_cast<int>(std::floor(stray_hi[k] * n[k] + 1.0e-6));
+    int first = static_cast<int>(std::floor(stray_lo[k] * n[k] - ROOM)) - 1,
+        last = static_cast<int>(std::floor(stray_hi[k] * n[k] + ROOM));
     if (!periodic[k]) {
       first = std::max(first, -1);
       last = std::min(last, n[k] - 1);

@@ -45,7 +45,8 @@ static constexpr double TOLERANCE = 1.0e-14;
 
 SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, std::string user) :
     Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
-    mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1)
+    mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1),
+    ahead(0.0)
 {
   mass.settings.kind = MassKind::VERTEX;
   mass.settings.tolerance = TOLERANCE;
@@ -317,19 +318,26 @@ void SurfaceMotion::share(int width)
 
 /* ---------------------------------------------------------------------- */
 
-const std::vector<SurfaceVertex> &SurfaceMotion::paths(double dt)
+void SurfaceMotion::begin_step(double dt)
 {
   refresh();
-  load_positions();
   load_displacements();
-  MeshPart &part = mass.part();
-  w.resize(part.size());
-  mass.matrix().apply_mask(moved, w);
-  mine.resize(6 * part.owned);
-  for (int i = 0; i < part.owned; ++i)
+  velocity.resize(part().size());
+  matrix().apply_mask(moved, velocity);
+  for (int i = 0; i < part().owned; ++i)
+    for (int k = 0; k < 3; ++k) velocity[i].c[k] /= dt;
+  ahead = dt;
+}
+
+const std::vector<SurfaceVertex> &SurfaceMotion::paths()
+{
+  load_positions();
+  const int owned = part().owned;
+  mine.resize(6 * owned);
+  for (int i = 0; i < owned; ++i)
     for (int k = 0; k < 3; ++k) {
-      mine[6 * i + k] = r[i].c[k] - w[i].c[k];
-      mine[6 * i + 3 + k] = w[i].c[k] / dt;
+      mine[6 * i + k] = r[i].c[k] - ahead * velocity[i].c[k];
+      mine[6 * i + 3 + k] = velocity[i].c[k];
     }
   share(6);
   for (size_t i = 0; i < listed.size(); ++i)
@@ -351,27 +359,36 @@ const std::vector<SurfaceVertex> &SurfaceMotion::places()
   return vertices;
 }
 
-void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity)
+void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
 {
   refresh();
   load_positions();
   position.assign(r.begin(), r.begin() + part().owned);
+  if (ahead > 0.0)
+    for (int i = 0; i < part().owned; ++i)
+      for (int k = 0; k < 3; ++k) position[i].c[k] -= ahead * velocity[i].c[k];
   part().load(atom->v, moved);
-  velocity.resize(part().size());
-  matrix().apply_mask(moved, velocity);
+  velocity_now.resize(part().size());
+  matrix().apply_mask(moved, velocity_now);
 }
 
 /* ----------------------------------------------------------------------
-   the control points' velocities and positions follow from those of the masses by L^-1
+   The control points' velocities and positions follow from those of the masses by L^-1. Atoms are
+   at the end of the step already, which velocities that change now change, too.
 ------------------------------------------------------------------------- */
 
-void SurfaceMotion::add_to(double **target)
+void SurfaceMotion::change_velocities()
 {
   r.resize(part().size());
   matrix().solve_mask(q, r);
   for (int i = 0; i < part().owned; ++i) {
     if (!is_free(part().vertices[i])) continue;
-    for (int k = 0; k < 3; ++k) target[part().atom_of(i)][k] += r[i].c[k];
+    const int j = part().atom_of(i);
+    for (int k = 0; k < 3; ++k) {
+      atom->v[j][k] += r[i].c[k];
+      atom->x[j][k] += ahead * r[i].c[k];
+      if (ahead > 0.0) velocity[i].c[k] += q[i].c[k];
+    }
   }
 }
 
@@ -381,22 +398,25 @@ void SurfaceMotion::apply(const VertexField &change)
   q.resize(part().size());
   for (int i = 0; i < part().owned; ++i)
     if (!is_free(part().vertices[i])) q[i] = {};
-  add_to(atom->v);
+  change_velocities();
 }
 
 void SurfaceMotion::apply(const std::vector<CollisionEvents::Change> &changes)
 {
   q.resize(part().size());
-  for (int i = 0; i < part().owned; ++i) {
-    const Vector3d &d = changes[part().vertices[i]].velocity;
-    q[i] = {{d[0], d[1], d[2], 0.0}};
-  }
-  add_to(atom->v);
-  for (int i = 0; i < part().owned; ++i) {
-    const Vector3d &d = changes[part().vertices[i]].position;
-    q[i] = {{d[0], d[1], d[2], 0.0}};
-  }
-  add_to(atom->x);
+  auto load = [&](Vector3d CollisionEvents::Change::*what) {
+    for (int i = 0; i < part().owned; ++i) {
+      const Vector3d &d = changes[part().vertices[i]].*what;
+      q[i] = {{d[0], d[1], d[2], 0.0}};
+    }
+  };
+  load(&CollisionEvents::Change::velocity);
+  change_velocities();
+  load(&CollisionEvents::Change::position);
+  matrix().solve_mask(q, r);
+  for (int i = 0; i < part().owned; ++i)
+    if (is_free(part().vertices[i]))
+      for (int k = 0; k < 3; ++k) atom->x[part().atom_of(i)][k] += r[i].c[k];
 }
 
 double SurfaceMotion::memory_usage() const
@@ -406,5 +426,6 @@ double SurfaceMotion::memory_usage() const
       sizeof(int) * (listed.capacity() + owner_of.capacity() + atom_vertex.capacity() +
                      6 * offset.capacity()) +
       faces.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int)) +
-      sizeof(Vector4) * (q.capacity() + moved.capacity() + r.capacity() + w.capacity());
+      sizeof(Vector4) *
+      (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity());
 }

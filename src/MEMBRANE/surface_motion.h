@@ -63,9 +63,13 @@ class SurfaceMotion : protected Pointers {
 
   // === A step
 
-  /// Collective; after control points have moved: paths of all vertices over the last dt.
-  const std::vector<Membrane_NS::SurfaceVertex> &paths(double dt);
-  /// Collective: vertices at rest where they are now.
+  /** Collective; call when control points have moved for a time dt. They have so in straight lines, on
+      which this goes back to the start; pass() goes on from there. */
+  void begin_step(double dt);
+  void pass(double duration) { ahead -= duration; }
+  /// Collective: paths of all vertices from now on.
+  const std::vector<Membrane_NS::SurfaceVertex> &paths();
+  /// Collective: vertices at rest where they are at the end of the step.
   const std::vector<Membrane_NS::SurfaceVertex> &places();
   /// What the last of these two returned.
   const std::vector<Membrane_NS::SurfaceVertex> &current() const { return vertices; }
@@ -75,10 +79,10 @@ class SurfaceMotion : protected Pointers {
   bigint epoch() { return mass.mesh().epoch(); }
   /// Collective: limit positions and velocities of the owned vertices, in the order of part().
   void masses_now(Membrane_NS::VertexField &position, Membrane_NS::VertexField &velocity);
-  /// Collective: changes of the masses' velocities, in the order of part(), reach the control points.
+  /// Collective: changes of the masses' velocities now, in the order of part(), reach the control
+  /// points.
   void apply(const Membrane_NS::VertexField &change);
-  /// Collective: changes of velocity and position of the owned vertices, by vertex, reach the
-  /// control points.
+  /// Collective: changes of velocity and position now of the owned vertices, by vertex, do.
   void apply(const std::vector<Membrane_NS::CollisionEvents::Change> &changes);
 
   /// Owned vertices in the order of their atoms.
@@ -108,7 +112,9 @@ class SurfaceMotion : protected Pointers {
   std::vector<int> atom_vertex;    // place in part() of local atoms, or -1
   std::vector<int> counts, starts, listed;    // all ranks' owned vertices
   std::vector<double> mine, all;
-  Membrane_NS::VertexField q, moved, r, w;
+  double ahead;                             // time left of the step
+  Membrane_NS::VertexField velocity;        // of owned vertices for the rest of it
+  Membrane_NS::VertexField q, moved, r;
 
   void check_movers();
   void find_faces();
@@ -117,7 +123,7 @@ class SurfaceMotion : protected Pointers {
   void load_positions();
   void load_displacements();
   void share(int width);
-  void add_to(double **target);
+  void change_velocities();
 };
 
 }    // namespace LAMMPS_NS

@@ -94,7 +94,7 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
 
 void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double dt)
 {
-  vertices = &motion.paths(dt);
+  vertices = &motion.paths();
   prepare_grid(solvent, dt);
   stream_bulk(solvent, walls, dt);
 
@@ -299,6 +299,7 @@ void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double 
   tally[INNER] += events.normal_impulse()[1];
   for (int k = 0; k < 3; ++k) tally[HANDED + k] += events.impulse()[k];
 
+  motion.pass(dt);
   int mine = !events.touched().empty(), any;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) motion.apply(events.changes());
@@ -311,7 +312,6 @@ void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double 
 
 void SurfaceObstacle::join_cells(SRDCells &cells, bigint step, double kT)
 {
-  if (!settings.no_slip) return;
   VertexField position;
   motion.masses_now(position, joined);
   MeshPart &part = motion.part();
@@ -331,7 +331,6 @@ void SurfaceObstacle::join_cells(SRDCells &cells, bigint step, double kT)
 
 void SurfaceObstacle::leave_cells(SRDCells &cells)
 {
-  if (!settings.no_slip) return;
   MeshPart &part = motion.part();
   VertexField change(part.owned);
   for (int i = 0; i < part.owned; ++i)

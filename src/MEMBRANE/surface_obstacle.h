@@ -55,11 +55,13 @@ class SurfaceObstacle : protected Pointers {
   void init();
   /// From setup(): finds the region of each solvent atom.
   void setup(const SRDSolvent &);
-  /// From post_integrate(), after control points have moved: solvent moves for the time dt.
+  /// From post_integrate(), after control points have moved for the time dt.
+  void begin_step(double dt) { motion.begin_step(dt); }
+  /// Solvent moves for the time dt, the step or the next part of it.
   void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
-  /** Around a collision in cells, if the surface does not slip: the point masses take part in it, each
-      with the solvent on one of its sides, drawn anew for each step; what is held, with thermal
-      velocities of kT. */
+  /** Around a collision in cells between two parts of a step, if the surface does not slip: the point
+      masses take part in it, each with the solvent on one of its sides, drawn anew for each step; what
+      is held, with thermal velocities of kT. */
   void join_cells(SRDCells &cells, bigint step, double kT);
   void leave_cells(SRDCells &cells);
   /// From final_integrate().
