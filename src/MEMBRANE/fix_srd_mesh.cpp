@@ -663,17 +663,18 @@ void FixSRDMesh::check_sides()
 
 void FixSRDMesh::grow_arrays(int nmax)
 {
-  obstacle->regions.grow(nmax);
+  obstacle->grow(nmax);
 }
 
 void FixSRDMesh::copy_arrays(int i, int j, int)
 {
-  obstacle->regions.region[j] = obstacle->regions.region[i];
+  obstacle->copy(i, j);
 }
 
 void FixSRDMesh::set_arrays(int i)
 {
   obstacle->regions.region[i] = 0;
+  obstacle->forget(i);
 }
 
 int FixSRDMesh::pack_exchange(int i, double *buf)
@@ -685,6 +686,7 @@ int FixSRDMesh::pack_exchange(int i, double *buf)
 int FixSRDMesh::unpack_exchange(int i, double *buf)
 {
   obstacle->regions.region[i] = static_cast<int>(buf[0]);
+  obstacle->forget(i);
   return 1;
 }
 

@@ -52,6 +52,7 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
   find_images(surface, vertices, lattice, periodic, hi, pad);
   begin(surface, vertices, lattice, 0.0, 0.0);
   fill(pad);
+  listed_ = pad;
 }
 
 /* ----------------------------------------------------------------------
@@ -144,16 +145,20 @@ void SurfaceGrid::fill(double pad)
 /* ---------------------------------------------------------------------- */
 
 bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice,
-                         double duration) const
+                         double duration)
 {
   if (!is_built() || vertices.size() != built_at_.size() || lattice != lattice_) return false;
-  const double most = settings_.skin * settings_.skin;
+  const double skin_squared = settings_.skin * settings_.skin;
+  double most_squared = 0.0;
   for (size_t v = 0; v < vertices.size(); ++v) {
     const Vector3d moved = vertices[v].path.origin - built_at_[v];
-    if (!(moved.squaredNorm() <= most &&
-          (moved + duration * vertices[v].path.velocity).squaredNorm() <= most))
+    const double squared = moved.squaredNorm();
+    if (!(squared <= skin_squared &&
+          (moved + duration * vertices[v].path.velocity).squaredNorm() <= skin_squared))
       return false;
+    most_squared = std::max(most_squared, squared);
   }
+  listed_ = settings_.skin + settings_.bulk_step + settings_.slack - std::sqrt(most_squared);
   return true;
 }
 
@@ -191,9 +196,10 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
 
 /* ---------------------------------------------------------------------- */
 
-bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
+bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found, double &gap)
 {
   found.clear();
+  gap = listed_;
   ++clock_;
   std::array<int, 3> from, to, i;
   const double beyond = std::max(0.0, reach - settings_.bulk_step);
@@ -211,12 +217,12 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
         for (int j = start_[cube]; j < start_[cube + 1]; ++j) {
           const int t = list_[j];
           const Plane &plane = planes_[t];
-          const double within = reach + plane.moves;
-          if (seen_[t] == clock_ || std::fabs(plane.normal.dot(x) - plane.offset) > within)
-            continue;
+          const double away =
+              std::max({std::fabs(plane.normal.dot(x) - plane.offset), (plane.lo - x).maxCoeff(),
+                        (x - plane.hi).maxCoeff()});
+          gap = std::min(gap, away);
+          if (away > reach + plane.moves || seen_[t] == clock_) continue;
           seen_[t] = clock_;
-          if (((x - plane.lo).array() < -within).any() || ((x - plane.hi).array() > within).any())
-            continue;
           found.push_back(t);
         }
       }

@@ -58,7 +58,7 @@ class SurfaceGrid {
   bool is_built() const { return !start_.empty(); }
   /// Whether vertices are, at the start and at the end of a step, where the grid can find them.
   bool serves(const std::vector<SurfaceVertex> &vertices, const Eigen::Matrix3d &lattice,
-              double duration) const;
+              double duration);
 
   /// Work out what the triangles do in this step; `slack` up to that of the settings.
   void begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
@@ -84,9 +84,9 @@ class SurfaceGrid {
   }
   bool is_empty(int cube) const { return !marked_[cube]; }
 
-  /// Triangles that may come within `reach` of x in this step, each once; false if that goes
-  /// beyond the grid.
-  bool find(const Eigen::Vector3d &x, double reach, std::vector<int> &found);
+  /** Triangles that may come within `reach` of x in this step, each once; false if that goes
+      beyond the grid. gap: no triangle is nearer than that at the start of the step. */
+  bool find(const Eigen::Vector3d &x, double reach, std::vector<int> &found, double &gap);
 
   double memory_usage() const;
 
@@ -100,6 +100,7 @@ class SurfaceGrid {
   double spacing_ = 0.0, inverse_spacing_ = 0.0;
   std::array<int, 3> size_ = {0, 0, 0};
   std::vector<Eigen::Vector3d> built_at_;
+  double listed_ = 0.0;    // cubes know all triangles that are nearer than that now
   Eigen::Matrix3d lattice_;
   std::vector<Image> images_;
   std::vector<uint8_t> marked_;

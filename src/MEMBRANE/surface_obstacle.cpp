@@ -23,6 +23,7 @@
 #include "domain.h"
 #include "error.h"
 #include "membrane_random.h"
+#include "memory.h"
 #include "update.h"
 
 #include <Eigen/Geometry>
@@ -62,8 +63,26 @@ static constexpr double FAST = 2.5;
 SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
     Pointers(lmp), motion(lmp, settings.membranes, settings.user),
     regions(lmp, motion, settings.user), tally{}, settings(settings), built_epoch(-1),
-    vertex_slack(0.0), point_slack(0.0), vertices(nullptr)
+    vertex_slack(0.0), point_slack(0.0), clearance(nullptr), travelled(0.0), fastest(0.0),
+    lattice(Eigen::Matrix3d::Zero()), vertices(nullptr)
 {
+}
+
+SurfaceObstacle::~SurfaceObstacle()
+{
+  memory->destroy(clearance);
+}
+
+void SurfaceObstacle::grow(int nmax)
+{
+  regions.grow(nmax);
+  memory->grow(clearance, nmax, "srd/mesh:clearance");
+}
+
+void SurfaceObstacle::copy(int i, int j)
+{
+  regions.region[j] = regions.region[i];
+  clearance[j] = clearance[i];
 }
 
 void SurfaceObstacle::init()
@@ -85,6 +104,7 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
   }
   events = CollisionEvents(rule);
   grid = {};
+  origins.clear();
   vertex_slack = point_slack = FIRST_SLACK * motion.edge();
 }
 
@@ -95,6 +115,7 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
 void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double dt)
 {
   vertices = &motion.paths();
+  follow_surface();
   prepare_grid(solvent, dt);
   stream_bulk(solvent, walls, dt);
 
@@ -110,6 +131,31 @@ void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double 
   if (comm->nprocs > 1)
     while (exchange()) run(solvent, walls, dt);
   finish(solvent, walls, dt);
+}
+
+/* ----------------------------------------------------------------------
+   how far vertices have come since the last time, however they did; in a box that changes, atoms move
+   along in ways not known here
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::follow_surface()
+{
+  double most = 0.0, fastest_squared = 0.0;
+  const bool begins = origins.size() != vertices->size() || lattice != motion.lattice();
+  if (begins) {
+    std::fill_n(clearance, atom->nlocal, -1.0);
+    lattice = motion.lattice();
+    origins.assign(vertices->size(), Vector3d::Zero());
+    travelled = 0.0;
+  }
+  for (size_t v = 0; v < vertices->size(); ++v) {
+    const MovingPoint &path = (*vertices)[v].path;
+    most = std::max(most, (path.origin - origins[v]).squaredNorm());
+    fastest_squared = std::max(fastest_squared, path.velocity.squaredNorm());
+    origins[v] = path.origin;
+  }
+  if (!begins) travelled += std::sqrt(most);
+  fastest = std::sqrt(fastest_squared);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -182,10 +228,13 @@ void SurfaceObstacle::stream_bulk(const SRDSolvent &solvent, BoxWalls &walls, do
     const double square = vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2];
     if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) || !(square < most))
       near.push_back({i, {Vector3d::Map(xi), Vector3d::Map(vi)}, std::sqrt(square)});
-    else if (have_walls)
-      walls.stream(xi, vi, solvent.mass()[i], dt);
-    else
-      for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
+    else {
+      clearance[i] = -1.0;
+      if (have_walls)
+        walls.stream(xi, vi, solvent.mass()[i], dt);
+      else
+        for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
+    }
   }
 }
 
@@ -198,10 +247,14 @@ bool SurfaceObstacle::collect(const SRDSolvent &solvent, const BoxWalls &walls, 
   grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
   entered.clear();
+  const double surface_comes = travelled + dt * fastest + vertex_slack;
   for (size_t n = 0; n < near.size(); ++n) {
     const auto &[i, path, speed] = near[n];
+    if (clearance[i] - dt * speed > surface_comes) continue;
     const double reach = dt * speed + point_slack;
-    if (!grid.find(path.origin, reach, found)) return false;
+    double gap;
+    if (!grid.find(path.origin, reach, found, gap)) return false;
+    clearance[i] = travelled + gap;
     if (found.empty()) continue;
     entered.push_back(n);
     events.add_point(path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
@@ -282,7 +335,9 @@ void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double 
   for (size_t n = 0; n < near.size(); ++n) {
     const int i = near[n].atom;
     double *x = atom->x[i], *v = atom->v[i];
+    clearance[i] -= dt * near[n].speed;
     if (next < entered.size() && entered[next] == (int) n) {
+      if (events.bounces(next) > 0) forget(i);
       const MovingPoint &path = events.path(next++);
       Vector3d::Map(x) = path.at(dt);
       Vector3d::Map(v) = path.velocity;
@@ -408,6 +463,7 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
       x = nearest + sign * distance * motion.edge() * normal;
       if (!regions.belongs(x.data(), atom->image[i], region)) continue;
       Vector3d::Map(atom->x[i]) = x;
+      forget(i);
       const double speed = sign * Vector3d::Map(atom->v[i]).dot(normal);
       if (speed < 0.0) Vector3d::Map(atom->v[i]) -= 2.0 * sign * speed * normal;
       return true;
@@ -428,6 +484,7 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
         x[k] = domain->sublo[k] + s[k] * (domain->subhi[k] - domain->sublo[k]);
     if (!regions.belongs(x.data(), atom->image[i], region)) continue;
     Vector3d::Map(atom->x[i]) = x;
+    forget(i);
     return true;
   }
   return false;
@@ -436,5 +493,6 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
 double SurfaceObstacle::memory_usage() const
 {
   return motion.memory_usage() + regions.memory_usage() + grid.memory_usage() +
+      sizeof(double) * (double) atom->nmax +
       (inverse_mask ? inverse_mask->memory_usage() : 0.0);
 }

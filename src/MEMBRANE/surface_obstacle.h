@@ -46,6 +46,7 @@ class SurfaceObstacle : protected Pointers {
     std::string user;           ///< named in errors
   };
   SurfaceObstacle(class LAMMPS *, const Settings &);
+  ~SurfaceObstacle() override;
 
   SurfaceMotion motion;
   SurfaceRegions regions;
@@ -68,6 +69,13 @@ class SurfaceObstacle : protected Pointers {
   void remember() { motion.remember(); }
   /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
   bigint check(const SRDSolvent &);
+
+  // === Per-atom data, as of a fix
+
+  void grow(int nmax);
+  void copy(int i, int j);
+  /// Of a new atom, or one from another rank.
+  void forget(int i) { clearance[i] = -1.0; }
 
   // === What has happened so far
 
@@ -94,10 +102,19 @@ class SurfaceObstacle : protected Pointers {
   std::vector<int> entered;    // those of them that may meet a triangle, by number
   std::vector<int> found;
   double vertex_slack, point_slack;
+
+  /* An atom that was at a distance from the surface cannot meet it before the two together have come
+     so far: clearance, by local atom, is that distance, less what the atom has travelled since, plus
+     what vertices had at most, `travelled`. Negative if not known. */
+  double *clearance;
+  double travelled, fastest;    // fastest: vertex in this step
+  std::vector<Eigen::Vector3d> origins;    // of vertices at the start of the last stream()
+  Eigen::Matrix3d lattice;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
   Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
   std::vector<Membrane_NS::SurfaceImpulse> told, from_outside;    // by all ranks; by others
 
+  void follow_surface();
   void prepare_grid(const SRDSolvent &, double dt);
   void build_grid(const SRDSolvent &, double dt);
   void find_shared();

@@ -150,6 +150,20 @@ struct Gas {
     grid.build(surface, vertices, mesh.lattice, mesh.periodic, lo, hi, settings);
   }
 
+  // from the surface, of the faces that the grid knows
+
+  double distance(const Vector3d &x) const
+  {
+    double least = INFINITY;
+    for (const SurfaceTriangle &t : grid.triangles()) {
+      std::array<Vector3d, 3> c;
+      for (int k = 0; k < 3; ++k) c[k] = vertices[t.vertex[k]].path.origin + t.shift[k];
+      const auto b = nearest_on_triangle(x, c[0], c[1], c[2]);
+      least = std::min(least, (b[0] * c[0] + b[1] * c[1] + b[2] * c[2] - x).norm());
+    }
+    return least;
+  }
+
   // one step; `wrap` brings points back into the box as LAMMPS does now and then
 
   void stream(const SurfaceSide &where, int axis = 2)
@@ -171,11 +185,13 @@ struct Gas {
         if (cube != SurfaceGrid::OUTSIDE && grid.is_empty(cube) &&
             step * step < grid.bulk_step_squared())
           continue;
-        if (cube == SurfaceGrid::OUTSIDE || !grid.find(p.origin, step + more, found)) {
+        double gap;
+        if (cube == SurfaceGrid::OUTSIDE || !grid.find(p.origin, step + more, found, gap)) {
           build(settings);
           near.clear();
           break;
         }
+        if (i % 16 == 0) ASSERT_GE(distance(p.origin), gap * (1.0 - 1.0e-12));
         if (found.empty()) continue;
         near.push_back(i);
         events.add_point(p, 1.0 / point_mass, i, step + more);
