@@ -25,6 +25,9 @@ using namespace Membrane_NS;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// cubes are counted so far
+static constexpr int MOST_AWAY = 8;
+
 /* ---------------------------------------------------------------------- */
 
 void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
@@ -48,10 +51,11 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
   }
   inverse_spacing_ = 1.0 / spacing_;
 
-  const double pad = settings.skin + settings.bulk_step + settings.slack;
+  const double pad = settings.skin + settings.reach;
   find_images(surface, vertices, lattice, periodic, hi, pad);
   begin(surface, vertices, lattice, 0.0, 0.0);
   fill(pad);
+  find_distances();
   listed_ = pad;
 }
 
@@ -112,7 +116,6 @@ void SurfaceGrid::find_images(const SurfaceFaces &surface,
 void SurfaceGrid::fill(double pad)
 {
   const size_t num_cubes = (size_t) size_[0] * size_[1] * size_[2];
-  marked_.assign(num_cubes, 0);
   start_.assign(num_cubes + 1, 0);
   std::vector<std::pair<int, int>> entries;    // cube, triangle
   for (size_t t = 0; t < planes_.size(); ++t) {
@@ -124,16 +127,16 @@ void SurfaceGrid::fill(double pad)
       from[k] = std::max(0, static_cast<int>(std::floor(a)));
       to[k] = std::min(size_[k] - 1, static_cast<int>(std::floor(b)));
     }
-    const double within = pad + 0.5 * spacing_ * plane.normal.lpNorm<1>();
+    const Vector3d normal = plane.plane.head<3>();
+    const double within = pad + 0.5 * spacing_ * normal.lpNorm<1>();
     for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
       for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
         for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
           const Vector3d centre = lo_ + spacing_ * Vector3d(i[0] + 0.5, i[1] + 0.5, i[2] + 0.5);
-          if (std::fabs(plane.normal.dot(centre) - plane.offset) > within) continue;
+          if (std::fabs(normal.dot(centre) + plane.plane[3]) > within) continue;
           const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
           entries.emplace_back(cube, t);
           ++start_[cube + 1];
-          marked_[cube] = 1;
         }
   }
   for (size_t c = 0; c < num_cubes; ++c) start_[c + 1] += start_[c];
@@ -142,23 +145,57 @@ void SurfaceGrid::fill(double pad)
   for (auto [cube, triangle] : entries) list_[next[cube]++] = triangle;
 }
 
+/* ----------------------------------------------------------------------
+   Cubes to the next one with triangles, diagonally, too: those with triangles spread out by one cube
+   in each direction, and who has not been reached counts. From a place n cubes away, a straight line
+   to a triangle passes n - 1 cubes before it comes to one within `pad` of that triangle.
+------------------------------------------------------------------------- */
+
+void SurfaceGrid::find_distances()
+{
+  const size_t row = size_[0], layer = row * size_[1], n = layer * size_[2];
+  away_.assign(n, 0);
+  std::vector<uint8_t> reached(n), last(n);
+  for (size_t c = 0; c < n; ++c) reached[c] = start_[c + 1] > start_[c];
+
+  // in lines of `length` cubes at distances of `stride`, of which `stride` lie side by side
+
+  auto spread = [&](size_t length, size_t stride) {
+    last = reached;
+    for (size_t first = 0; first < n; first += length * stride) {
+      uint8_t *to = reached.data() + first;
+      const uint8_t *from = last.data() + first;
+      const size_t inner = (length - 1) * stride;
+      for (size_t c = 0; c < inner; ++c) to[c] |= from[c + stride];
+      for (size_t c = 0; c < inner; ++c) to[c + stride] |= from[c];
+    }
+  };
+  for (int k = 0; k < MOST_AWAY; ++k) {
+    size_t missing = 0;
+    for (size_t c = 0; c < n; ++c) {
+      away_[c] += 1 - reached[c];
+      missing += 1 - reached[c];
+    }
+    if (missing == 0) break;
+    spread(size_[0], 1);
+    spread(size_[1], row);
+    spread(size_[2], layer);
+  }
+}
+
 /* ---------------------------------------------------------------------- */
 
-bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice,
-                         double duration)
+bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice)
 {
   if (!is_built() || vertices.size() != built_at_.size() || lattice != lattice_) return false;
   const double skin_squared = settings_.skin * settings_.skin;
   double most_squared = 0.0;
   for (size_t v = 0; v < vertices.size(); ++v) {
-    const Vector3d moved = vertices[v].path.origin - built_at_[v];
-    const double squared = moved.squaredNorm();
-    if (!(squared <= skin_squared &&
-          (moved + duration * vertices[v].path.velocity).squaredNorm() <= skin_squared))
-      return false;
+    const double squared = (vertices[v].path.origin - built_at_[v]).squaredNorm();
+    if (!(squared <= skin_squared)) return false;
     most_squared = std::max(most_squared, squared);
   }
-  listed_ = settings_.skin + settings_.bulk_step + settings_.slack - std::sqrt(most_squared);
+  listed_ = settings_.skin + settings_.reach - std::sqrt(most_squared);
   return true;
 }
 
@@ -167,6 +204,7 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
 {
   triangles_.resize(images_.size());
   planes_.resize(images_.size());
+  most_moves_ = 0.0;
   for (size_t t = 0; t < images_.size(); ++t) {
     const Image &image = images_[t];
     SurfaceTriangle &triangle = triangles_[t];
@@ -182,13 +220,14 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
       x[k] = vertices[v].path.origin + triangle.shift[k];
       fastest = std::max(fastest, vertices[v].path.velocity.squaredNorm());
     }
-    plane.normal = (x[1] - x[0]).cross(x[2] - x[0]);
-    const double size = plane.normal.norm();
-    if (size > 0.0) plane.normal /= size;
-    plane.offset = plane.normal.dot(x[0]);
-    plane.lo = x[0].cwiseMin(x[1]).cwiseMin(x[2]);
-    plane.hi = x[0].cwiseMax(x[1]).cwiseMax(x[2]);
+    Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
+    const double size = normal.norm();
+    if (size > 0.0) normal /= size;
+    plane.plane << normal.array(), -normal.dot(x[0]);
+    plane.lo << x[0].cwiseMin(x[1]).cwiseMin(x[2]).array(), 1.0;
+    plane.hi << x[0].cwiseMax(x[1]).cwiseMax(x[2]).array(), 1.0;
     plane.moves = duration * std::sqrt(fastest) + slack;
+    most_moves_ = std::max(most_moves_, plane.moves);
   }
   seen_.assign(images_.size(), 0);
   clock_ = 0;
@@ -199,17 +238,20 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
 bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found, double &gap)
 {
   found.clear();
-  gap = listed_;
   ++clock_;
-  std::array<int, 3> from, to, i;
-  const double beyond = std::max(0.0, reach - settings_.bulk_step);
+  std::array<int, 3> at, from, to, i;
+  const double beyond = std::max(0.0, reach + most_moves_ - listed_) * inverse_spacing_;
   for (int k = 0; k < 3; ++k) {
-    const double a = (x[k] - lo_[k] - beyond) * inverse_spacing_,
-                 b = (x[k] - lo_[k] + beyond) * inverse_spacing_;
-    if (!(a >= 0.0 && b < size_[k])) return false;
-    from[k] = static_cast<int>(a);
-    to[k] = static_cast<int>(b);
+    const double s = (x[k] - lo_[k]) * inverse_spacing_;
+    if (!(s - beyond >= 0.0 && s + beyond < size_[k])) return false;
+    at[k] = static_cast<int>(s);
+    from[k] = static_cast<int>(s - beyond);
+    to[k] = static_cast<int>(s + beyond);
   }
+  const int away = away_[(at[2] * size_[1] + at[1]) * size_[0] + at[0]];
+  gap = listed_ + std::max(0, away - 1) * spacing_;
+  if (gap > reach + most_moves_ && away > 0) return true;
+  const Eigen::Array4d place(x[0], x[1], x[2], 1.0);
   for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
     for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
       for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
@@ -217,11 +259,10 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found,
         for (int j = start_[cube]; j < start_[cube + 1]; ++j) {
           const int t = list_[j];
           const Plane &plane = planes_[t];
-          const double away =
-              std::max({std::fabs(plane.normal.dot(x) - plane.offset), (plane.lo - x).maxCoeff(),
-                        (x - plane.hi).maxCoeff()});
-          gap = std::min(gap, away);
-          if (away > reach + plane.moves || seen_[t] == clock_) continue;
+          const double distance = std::max(std::fabs((plane.plane * place).sum()),
+                                           (plane.lo - place).max(place - plane.hi).maxCoeff());
+          gap = std::min(gap, distance);
+          if (distance > reach + plane.moves || seen_[t] == clock_) continue;
           seen_[t] = clock_;
           found.push_back(t);
         }
@@ -231,7 +272,7 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found,
 
 double SurfaceGrid::memory_usage() const
 {
-  return marked_.capacity() + sizeof(int) * (start_.capacity() + list_.capacity()) +
+  return away_.capacity() + sizeof(int) * (start_.capacity() + list_.capacity()) +
       sizeof(SurfaceTriangle) * triangles_.capacity() + sizeof(Plane) * planes_.capacity() +
       sizeof(Image) * images_.capacity() + sizeof(Vector3d) * built_at_.capacity();
 }

@@ -31,18 +31,18 @@ struct SurfaceFaces {
   std::vector<std::array<std::array<int, 3>, 3>> seams;
 };
 
-/** Finds the triangles of a moving surface that a moving point may meet in a step.
+/** Finds the triangles of a moving surface that a moving point may meet in a step, or how far away
+    they are.
 
     Space is cut into cubes; a cube knows the triangles, in whichever periodic image, that came
-    within `pad` of it when the grid was built. A point far from the surface, which is nearly every
-    one, costs a look into a table. The grid serves until a vertex has moved by more than `skin`. */
+    within `skin` and `reach` of it when the grid was built, or if there are none, how many cubes away
+    is one that does. The grid serves until a vertex has moved by more than `skin`. */
 class SurfaceGrid {
  public:
   struct Settings {
-    double skin;         ///< vertices may move so far before the grid is built anew
-    double bulk_step;    ///< points that do not move further in a step need one look only
-    double slack;        ///< vertices may be deflected so far in a step
-    double spacing;      ///< of the cubes, at least
+    double skin;       ///< vertices may move so far before the grid is built anew
+    double reach;      ///< of a point, so far one look is enough, and further it takes more
+    double spacing;    ///< of the cubes, at least
     int most_cubes = 1 << 22;
   };
   /// A triangle in a periodic image.
@@ -56,54 +56,38 @@ class SurfaceGrid {
              const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
              const Eigen::Vector3d &lo, const Eigen::Vector3d &hi, const Settings &settings);
   bool is_built() const { return !start_.empty(); }
-  /// Whether vertices are, at the start and at the end of a step, where the grid can find them.
-  bool serves(const std::vector<SurfaceVertex> &vertices, const Eigen::Matrix3d &lattice,
-              double duration);
+  /// Whether vertices are, at the start of a step, where the grid can find them.
+  bool serves(const std::vector<SurfaceVertex> &vertices, const Eigen::Matrix3d &lattice);
 
-  /// Work out what the triangles do in this step; `slack` up to that of the settings.
+  /// Work out what the triangles do in this step; vertices may be deflected by up to `slack`.
   void begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
              const Eigen::Matrix3d &lattice, double duration, double slack);
   const std::vector<SurfaceTriangle> &triangles() const { return triangles_; }
   const std::vector<Image> &images() const { return images_; }
-  /// Furthest that a point can move in a step without a closer look, squared.
-  double bulk_step_squared() const { return settings_.bulk_step * settings_.bulk_step; }
-
-  // === Where points are
-
-  static constexpr int OUTSIDE = -1;
-  /// The cube of a place, or OUTSIDE.
-  int cube(const double *x) const
-  {
-    int at[3];
-    for (int k = 0; k < 3; ++k) {
-      const double s = (x[k] - lo_[k]) * inverse_spacing_;
-      if (!(s >= 0.0 && s < size_[k])) return OUTSIDE;
-      at[k] = static_cast<int>(s);
-    }
-    return (at[2] * size_[1] + at[1]) * size_[0] + at[0];
-  }
-  bool is_empty(int cube) const { return !marked_[cube]; }
 
   /** Triangles that may come within `reach` of x in this step, each once; false if that goes
-      beyond the grid. gap: no triangle is nearer than that at the start of the step. */
+      beyond the grid. gap: no triangle is nearer than that at the start of the step; known up to some
+      distance, which is less near triangles. */
   bool find(const Eigen::Vector3d &x, double reach, std::vector<int> &found, double &gap);
 
   double memory_usage() const;
 
  private:
-  struct Plane {               // of a triangle at the start of the step
-    Eigen::Vector3d normal, lo, hi;
-    double offset, moves;      // moves: how far its corners come
+  // of a triangle at the start of the step: its plane as normal and -offset, and the box around it
+  struct Plane {
+    Eigen::Array4d plane, lo, hi;    // last of lo and hi: 1
+    double moves;                    // how far its corners come
   };
-  Settings settings_;
+  Settings settings_ = {};
   Eigen::Vector3d lo_;
   double spacing_ = 0.0, inverse_spacing_ = 0.0;
   std::array<int, 3> size_ = {0, 0, 0};
   std::vector<Eigen::Vector3d> built_at_;
-  double listed_ = 0.0;    // cubes know all triangles that are nearer than that now
+  double listed_ = 0.0;        // cubes know all triangles that are nearer than that now
+  double most_moves_ = 0.0;    // of all triangles in this step
   Eigen::Matrix3d lattice_;
   std::vector<Image> images_;
-  std::vector<uint8_t> marked_;
+  std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles, or more
   std::vector<int> start_, list_;
 
   std::vector<SurfaceTriangle> triangles_;
@@ -115,6 +99,7 @@ class SurfaceGrid {
                    const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
                    const Eigen::Vector3d &hi, double pad);
   void fill(double pad);
+  void find_distances();
 };
 
 }    // namespace Membrane_NS

@@ -44,18 +44,19 @@ using Membrane_NS::SurfaceImpulse;
 
 // see TriangleCollision: far above rounding, also of coordinates in a large box
 static constexpr double CONTACT = 1.0e-10;
-// the grid is built anew when vertices have moved so far
-static constexpr double SKIN = 0.15;
+// the grid is built anew when vertices have moved so far; of distances beyond this from its cubes, it
+// knows less
+static constexpr double SKIN = 0.3, REACH = 0.2;
 // vertices may be deflected so far in one step, points so far beyond where their speed takes them;
 // looked for in the first attempt, and at most
-static constexpr double FIRST_SLACK = 0.02, MOST_SLACK = 0.15;
-static constexpr double SPACING = 0.5;
+static constexpr double FIRST_SLACK = 0.01, MOST_SLACK = 0.15;
+static constexpr double SPACING = 0.7;
 
 // of the random numbers that say with which side a point mass collides, and of thermal velocities of
 // those that are held
 static constexpr uint64_t SIDE_SEED = 0x73696465, HELD_SEED = 0x68656c64;
 
-// solvent faster than this, in root mean squares, gets a closer look everywhere
+// solvent faster than this, in root mean squares, needs more than one look
 static constexpr double FAST = 2.5;
 
 /* ---------------------------------------------------------------------- */
@@ -117,20 +118,18 @@ void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double 
   vertices = &motion.paths();
   follow_surface();
   prepare_grid(solvent, dt);
-  stream_bulk(solvent, walls, dt);
-
-  int beyond = !collect(solvent, walls, dt), any;
+  int beyond = !move_or_note(solvent, walls, dt), any;
   MPI_Allreduce(&beyond, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) {
     build_grid(solvent, dt);
-    collect(solvent, walls, dt);
+    look_again(solvent, walls, dt);
   }
   from_outside.clear();
   told.clear();
   run(solvent, walls, dt);
   if (comm->nprocs > 1)
     while (exchange()) run(solvent, walls, dt);
-  finish(solvent, walls, dt);
+  finish(walls, dt);
 }
 
 /* ----------------------------------------------------------------------
@@ -162,7 +161,7 @@ void SurfaceObstacle::follow_surface()
 
 void SurfaceObstacle::prepare_grid(const SRDSolvent &solvent, double dt)
 {
-  if (!grid.serves(*vertices, motion.lattice(), dt) ||
+  if (!grid.serves(*vertices, motion.lattice()) ||
       (comm->nprocs > 1 && built_epoch != motion.epoch()))
     build_grid(solvent, dt);
 }
@@ -185,8 +184,7 @@ void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
   const double edge = motion.edge();
   SurfaceGrid::Settings s;
   s.skin = SKIN * edge;
-  s.slack = MOST_SLACK * edge;
-  s.bulk_step = FAST * dt * std::sqrt(square / std::max(1, solvent.count()));
+  s.reach = REACH * edge + FAST * dt * std::sqrt(square / std::max(1, solvent.count()));
   s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
@@ -212,59 +210,104 @@ void SurfaceObstacle::find_shared()
 }
 
 /* ----------------------------------------------------------------------
-   solvent far from membranes just moves; the rest is noted
+   solvent that cannot meet a triangle just moves, and what may is noted; false if some is beyond the
+   grid. Nothing can be taken back from walls: with them vertices are looked for as far as they may be.
 ------------------------------------------------------------------------- */
 
-void SurfaceObstacle::stream_bulk(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, double dt)
 {
-  near.clear();
-  double *const *x = atom->x, *const *v = atom->v;
   const bool dense = solvent.dense(), have_walls = walls.any();
-  const double most = grid.bulk_step_squared() / (dt * dt);
+  if (have_walls) vertex_slack = most_slack();
+  near.clear();
+  grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
+  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
+  if (solvent.count() == 0) return true;
+
+  double *x = atom->x[0];
+  const double *v = atom->v[0];
+  bool all_found = true;
+  const double surface_comes = travelled + dt * fastest + vertex_slack;
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!dense && !solvent.has(i)) continue;
-    double *xi = x[i], *vi = v[i];
-    const int cube = grid.cube(xi);
-    const double square = vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2];
-    if (cube == SurfaceGrid::OUTSIDE || !grid.is_empty(cube) || !(square < most))
-      near.push_back({i, {Vector3d::Map(xi), Vector3d::Map(vi)}, std::sqrt(square)});
-    else {
-      clearance[i] = -1.0;
-      if (have_walls)
-        walls.stream(xi, vi, solvent.mass()[i], dt);
-      else
-        for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
+    double *xi = x + 3 * (size_t) i;
+    const double *vi = v + 3 * (size_t) i;
+    const double speed = std::sqrt(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2]);
+    clearance[i] -= dt * speed;
+    if (!(clearance[i] > surface_comes)) {
+      const Near here = {i, {Vector3d::Map(xi), Vector3d::Map(vi)}, speed};
+      const bool inside = look(here, solvent, dt);
+      all_found = all_found && inside;
+      if (!inside || !found.empty()) {
+        near.push_back(here);
+        continue;
+      }
     }
+    if (have_walls)
+      walls.stream(xi, atom->v[i], solvent.mass()[i], dt);
+    else
+      for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
+  }
+  return all_found;
+}
+
+/* ----------------------------------------------------------------------
+   which triangles an atom may meet; false if it is beyond the grid
+------------------------------------------------------------------------- */
+
+bool SurfaceObstacle::look(const Near &near, const SRDSolvent &solvent, double dt)
+{
+  const int i = near.atom;
+  const double reach = dt * near.speed + point_slack;
+  double gap;
+  if (!grid.find(near.path.origin, reach, found, gap)) return false;
+  clearance[i] = travelled + gap - dt * near.speed;
+  if (found.empty()) return true;
+  events.add_point(near.path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
+  for (int t : found) {
+    const auto &image = grid.images()[t];
+    events.add_pair(t, regions.side(regions.region[i], atom->image[i],
+                                    motion.component(image.face), image.lattice));
+  }
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   for another grid, or more slack
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
+{
+  grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
+  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
+  for (const Near &n : near) {
+    if (!look(n, solvent, dt))
+      error->one(FLERR, "{}: solvent moves further than {:.6g} in one step: use a shorter timestep",
+                 settings.user, settings.stray);
+    if (found.empty())
+      events.add_point(n.path, 1.0 / solvent.mass()[n.atom], atom->tag[n.atom], INFINITY);
   }
 }
 
 /* ----------------------------------------------------------------------
-   which of the noted atoms may meet which triangles; false if some are beyond the grid
+   vertices are deflected further than foreseen: what moved already may meet them after all
 ------------------------------------------------------------------------- */
 
-bool SurfaceObstacle::collect(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
+void SurfaceObstacle::take_back(const SRDSolvent &solvent, double dt)
 {
-  grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
-  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
-  entered.clear();
+  std::vector<char> noted(atom->nlocal, 0);
+  for (const Near &n : near) noted[n.atom] = 1;
   const double surface_comes = travelled + dt * fastest + vertex_slack;
-  for (size_t n = 0; n < near.size(); ++n) {
-    const auto &[i, path, speed] = near[n];
-    if (clearance[i] - dt * speed > surface_comes) continue;
-    const double reach = dt * speed + point_slack;
-    double gap;
-    if (!grid.find(path.origin, reach, found, gap)) return false;
-    clearance[i] = travelled + gap;
-    if (found.empty()) continue;
-    entered.push_back(n);
-    events.add_point(path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
-    for (int t : found) {
-      const auto &image = grid.images()[t];
-      events.add_pair(t, regions.side(regions.region[i], atom->image[i],
-                                      motion.component(image.face), image.lattice));
-    }
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (noted[i] || !solvent.has(i) || clearance[i] > surface_comes) continue;
+    const Vector3d v = Vector3d::Map(atom->v[i]);
+    Vector3d::Map(atom->x[i]) -= dt * v;
+    near.push_back({i, {Vector3d::Map(atom->x[i]), v}, v.norm()});
   }
-  return true;
+}
+
+double SurfaceObstacle::most_slack() const
+{
+  return MOST_SLACK * motion.edge();
 }
 
 /* ----------------------------------------------------------------------
@@ -278,17 +321,15 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
     if (outcome == CollisionEvents::Outcome::DONE) return;
     if (outcome == CollisionEvents::Outcome::POINT_STRAYED)
       point_slack *= 2.0;
-    else {
-      if (vertex_slack >= MOST_SLACK * motion.edge())
-        error->one(FLERR,
-                   "{}: solvent deflects a vertex by more than {} of an edge in one step: use a "
-                   "shorter timestep or heavier control points",
-                   settings.user, MOST_SLACK);
-      vertex_slack = std::min(2.0 * vertex_slack, MOST_SLACK * motion.edge());
-    }
-    if (!collect(solvent, walls, dt))
-      error->one(FLERR, "{}: solvent moves further than {:.6g} in one step: use a shorter timestep",
-                 settings.user, settings.stray);
+    else if (vertex_slack < most_slack()) {
+      vertex_slack = std::min(2.0 * vertex_slack, most_slack());
+      take_back(solvent, dt);
+    } else
+      error->one(FLERR,
+                 "{}: solvent deflects a vertex by more than {} of an edge in one step: use a "
+                 "shorter timestep or heavier control points",
+                 settings.user, MOST_SLACK);
+    look_again(solvent, walls, dt);
   }
 }
 
@@ -328,23 +369,14 @@ bool SurfaceObstacle::exchange()
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceObstacle::finish(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+void SurfaceObstacle::finish(BoxWalls &walls, double dt)
 {
-  const bool have_walls = walls.any();
-  size_t next = 0;
   for (size_t n = 0; n < near.size(); ++n) {
     const int i = near[n].atom;
-    double *x = atom->x[i], *v = atom->v[i];
-    clearance[i] -= dt * near[n].speed;
-    if (next < entered.size() && entered[next] == (int) n) {
-      if (events.bounces(next) > 0) forget(i);
-      const MovingPoint &path = events.path(next++);
-      Vector3d::Map(x) = path.at(dt);
-      Vector3d::Map(v) = path.velocity;
-    } else if (have_walls)
-      walls.stream(x, v, solvent.mass()[i], dt);
-    else
-      Vector3d::Map(x) += dt * near[n].path.velocity;
+    const MovingPoint &path = events.path(n);
+    Vector3d::Map(atom->x[i]) = path.at(dt);
+    Vector3d::Map(atom->v[i]) = path.velocity;
+    if (events.bounces(n) > 0) forget(i);
   }
   Vector3d::Map(walls.impulse) += events.wall_impulse();
 

@@ -93,13 +93,12 @@ class SurfaceObstacle : protected Pointers {
   std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
   bigint built_epoch;
   std::vector<char> shared;    // vertices that atoms of several ranks may touch
-  struct Near {                // an atom that needs a closer look
+  struct Near {                // an atom that may meet triangles in this step
     int atom;
     Membrane_NS::MovingPoint path;
     double speed;
   };
   std::vector<Near> near;
-  std::vector<int> entered;    // those of them that may meet a triangle, by number
   std::vector<int> found;
   double vertex_slack, point_slack;
 
@@ -118,11 +117,14 @@ class SurfaceObstacle : protected Pointers {
   void prepare_grid(const SRDSolvent &, double dt);
   void build_grid(const SRDSolvent &, double dt);
   void find_shared();
-  void stream_bulk(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
-  bool collect(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
+  bool move_or_note(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  bool look(const Near &, const SRDSolvent &, double dt);
+  void look_again(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
+  void take_back(const SRDSolvent &, double dt);
+  double most_slack() const;
   void run(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
   bool exchange();
-  void finish(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  void finish(Membrane_NS::BoxWalls &walls, double dt);
   Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &, Eigen::Vector3d &normal);
   bool rescue(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest,
               const Eigen::Vector3d &normal);
