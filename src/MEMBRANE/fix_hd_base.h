@@ -44,6 +44,8 @@ class FixHDBase : public Fix {
   void remember_displacement() { remembers = true; }
   /// By how much it has in the present step; the order is that of part().
   const Membrane_NS::VertexField &displacement() const { return moved; }
+  /// M^-1 f at the start of the present step, in units of force/mass; the same order.
+  const Membrane_NS::VertexField &last_acceleration() const { return acceleration; }
   const MeshPart &part() { return mass.part(); }
 
  protected:

@@ -26,12 +26,13 @@ using Eigen::Vector3d;
 
 void CollisionEvents::begin(const std::vector<SurfaceVertex> &vertices,
                             const std::vector<SurfaceTriangle> &triangles, double duration,
-                            double vertex_slack, const BoxWalls &walls)
+                            double vertex_slack, const BoxWalls &walls, double middle)
 {
   vertices_ = &vertices;
   triangles_ = &triangles;
   duration_ = duration;
   slack_ = vertex_slack;
+  middle_ = middle;
   walls_ = walls;
   have_walls_ = walls.any();
   points_.clear();
@@ -194,14 +195,9 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
   const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
   const auto &b = pair.hit.weight;
 
-  std::array<Vector3d, 3> velocities;
-  std::array<double, 3> inverse_masses;
   double approach = point.now.velocity.dot(pair.hit.normal);
-  for (int k = 0; k < 3; ++k) {
-    velocities[k] = paths_[triangle.vertex[k]].velocity;
-    inverse_masses[k] = (*vertices_)[triangle.vertex[k]].inverse_mass;
-    approach -= b[k] * velocities[k].dot(pair.hit.normal);
-  }
+  for (int k = 0; k < 3; ++k)
+    approach -= b[k] * paths_[triangle.vertex[k]].velocity.dot(pair.hit.normal);
 
   point.touching = first;
   ++point.bounces;
@@ -213,9 +209,7 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
   if (!give_up && pair.side * approach < 0.0) {
     SurfaceImpulse done = {now, point.tag, triangle.vertex, b, Vector3d::Zero(), -1};
     if (!settings_.control || !hit_control(pair, point, done))
-      done.impulse =
-          -collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
-                             inverse_masses, settings_.no_slip || point.bounces > settings_.most_bounces);
+      done.impulse = impulse_of(pair, point, now);
     point.now.turn(now, -point.inverse_mass * done.impulse);
     if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
     impulse_ += done.impulse;
@@ -231,6 +225,36 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
     else
       foresee(p, now);
   schedule(i, now);
+}
+
+/* ----------------------------------------------------------------------
+   On the surface, with velocities of the time of the collision; where the point would not leave the
+   surface for that, as when it grazes, with those of the paths. Seen backwards in time the choice is
+   the same: it depends on whether both the velocity before and that after point the right way.
+------------------------------------------------------------------------- */
+
+Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, double now) const
+{
+  const auto &vertex = (*triangles_)[pair.triangle].vertex;
+  const auto &b = pair.hit.weight;
+  const bool no_slip = settings_.no_slip || point.bounces > settings_.most_bounces;
+  std::array<Vector3d, 3> velocities, later;
+  std::array<double, 3> inverse_masses;
+  Vector3d relative = point.now.velocity;
+  double inverse = point.inverse_mass;
+  for (int k = 0; k < 3; ++k) {
+    const SurfaceVertex &v = (*vertices_)[vertex[k]];
+    velocities[k] = paths_[vertex[k]].velocity;
+    later[k] = velocities[k] + (now - middle_) * v.acceleration;
+    inverse_masses[k] = v.inverse_mass;
+    relative -= b[k] * velocities[k];
+    inverse += b[k] * b[k] * v.inverse_mass;
+  }
+  const Vector3d impulse = -collision_impulse(pair.hit, point.now.velocity, later,
+                                              point.inverse_mass, inverse_masses, no_slip);
+  if (pair.side * (relative - inverse * impulse).dot(pair.hit.normal) > 0.0) return impulse;
+  return -collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
+                            inverse_masses, no_slip);
 }
 
 /* ----------------------------------------------------------------------

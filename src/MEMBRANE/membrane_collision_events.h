@@ -27,6 +27,7 @@ namespace Membrane_NS {
 struct SurfaceVertex {
   MovingPoint path;
   double inverse_mass = 0.0;
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();    ///< by forces, see CollisionEvents
 };
 
 /// A triangle of the surface, in the periodic image where a point may meet it.
@@ -72,6 +73,13 @@ class ControlWeights {
     so it keeps energy, momentum and angular momentum to rounding, is reversible, and preserves
     volume in phase space.
 
+    That is the motion without forces, which an integrator lets act at the ends of a step. Half a
+    step's kick at either end is as much as a force that acts all the time: its work on the way is
+    then right for straight lines, not for those that turn at a time s after the middle of the step by
+    some dw, and so end up s dw from where they would have been, had they turned in the middle. The
+    energy that costs, -s a.dw of each mass, is what a collision has to give, too, and does if
+    velocities in it are those of its time, w + s a.
+
     Fill with begin(), add_point() and add_pair(), then run(), as often as impulses from outside
     (from points of other ranks) become better known. */
 class CollisionEvents {
@@ -97,10 +105,10 @@ class CollisionEvents {
   // === Input. Vertices and triangles must outlive the runs.
 
   /// vertex_slack: how much further than foreseen at the start a vertex may be found in the step.
-  /// Points meet these walls, too.
+  /// Points meet these walls, too. middle: when velocities are those of the paths.
   void begin(const std::vector<SurfaceVertex> &vertices,
              const std::vector<SurfaceTriangle> &triangles, double duration, double vertex_slack,
-             const BoxWalls &walls = {});
+             const BoxWalls &walls = {}, double middle = 0.0);
   /// A point and how far from its start it may be found; returns its index.
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
   /// A triangle that the last point may meet, and the side it is on.
@@ -168,7 +176,7 @@ class CollisionEvents {
   TriangleCollision collision_;
   const std::vector<SurfaceVertex> *vertices_ = nullptr;
   const std::vector<SurfaceTriangle> *triangles_ = nullptr;
-  double duration_ = 0.0, slack_ = 0.0;
+  double duration_ = 0.0, slack_ = 0.0, middle_ = 0.0;
   std::vector<Point> points_;
   std::vector<Pair> pairs_;
   std::vector<int> vertex_pairs_start_, vertex_pairs_;    // which pairs a vertex is part of
@@ -196,6 +204,7 @@ class CollisionEvents {
   void collide(const Event &event, Outcome &outcome);
   void hit_wall(const Event &event, Outcome &outcome);
   bool in_reach(const Point &point) const;
+  Eigen::Vector3d impulse_of(const Pair &pair, const Point &point, double now) const;
   bool hit_control(const Pair &pair, const Point &point, SurfaceImpulse &done);
   bool turn_vertices(const SurfaceImpulse &impulse);
   bool turn_vertex(int v, double time, const Eigen::Vector3d &momentum);

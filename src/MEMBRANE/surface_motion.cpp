@@ -23,6 +23,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
+#include "force.h"
 #include "group.h"
 #include "modify.h"
 
@@ -46,7 +47,7 @@ static constexpr double TOLERANCE = 1.0e-14;
 SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, std::string user) :
     Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
     mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1),
-    ahead(0.0)
+    whole(0.0), ahead(0.0)
 {
   mass.settings.kind = MassKind::VERTEX;
   mass.settings.tolerance = TOLERANCE;
@@ -120,7 +121,7 @@ void SurfaceMotion::find_faces()
     faces.faces.push_back(topology.face(f));
     face_component.push_back(c);
   }
-  vertices.assign(n, {{Vector3d::Zero(), Vector3d::Zero()}, 0.0});
+  vertices.assign(n, {{Vector3d::Zero(), Vector3d::Zero()}});
   owner_of.assign(n, -1);
 }
 
@@ -298,6 +299,20 @@ void SurfaceMotion::load_displacements()
   }
 }
 
+void SurfaceMotion::load_accelerations()
+{
+  moved.assign(mass.part().size(), Vector4{});
+  for (FixHDBase *integrator : integrators) {
+    const MeshPart &theirs = integrator->part();
+    for (int i = 0; i < theirs.owned; ++i) {
+      const int here = atom_vertex[theirs.atom_of(i)];
+      if (here >= 0)
+        for (int k = 0; k < 3; ++k)
+          moved[here].c[k] = force->ftm2v * integrator->last_acceleration()[i].c[k];
+    }
+  }
+}
+
 // all = the ranks' mine, `width` numbers a vertex, in the order of `listed`
 
 void SurfaceMotion::share(int width)
@@ -326,22 +341,29 @@ void SurfaceMotion::begin_step(double dt)
   matrix().apply_mask(moved, velocity);
   for (int i = 0; i < part().owned; ++i)
     for (int k = 0; k < 3; ++k) velocity[i].c[k] /= dt;
-  ahead = dt;
+  load_accelerations();
+  acceleration.resize(part().size());
+  matrix().apply_mask(moved, acceleration);
+  whole = ahead = dt;
 }
 
 const std::vector<SurfaceVertex> &SurfaceMotion::paths()
 {
   load_positions();
   const int owned = part().owned;
-  mine.resize(6 * owned);
+  mine.resize(9 * owned);
   for (int i = 0; i < owned; ++i)
     for (int k = 0; k < 3; ++k) {
-      mine[6 * i + k] = r[i].c[k] - ahead * velocity[i].c[k];
-      mine[6 * i + 3 + k] = velocity[i].c[k];
+      mine[9 * i + k] = r[i].c[k] - ahead * velocity[i].c[k];
+      mine[9 * i + 3 + k] = velocity[i].c[k];
+      mine[9 * i + 6 + k] = acceleration[i].c[k];
     }
-  share(6);
-  for (size_t i = 0; i < listed.size(); ++i)
-    vertices[listed[i]].path = {Vector3d::Map(&all[6 * i]), Vector3d::Map(&all[6 * i + 3])};
+  share(9);
+  for (size_t i = 0; i < listed.size(); ++i) {
+    SurfaceVertex &vertex = vertices[listed[i]];
+    vertex.path = {Vector3d::Map(&all[9 * i]), Vector3d::Map(&all[9 * i + 3])};
+    vertex.acceleration = Vector3d::Map(&all[9 * i + 6]);
+  }
   return vertices;
 }
 
@@ -427,5 +449,6 @@ double SurfaceMotion::memory_usage() const
                      6 * offset.capacity()) +
       faces.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int)) +
       sizeof(Vector4) *
-      (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity());
+      (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity() +
+       acceleration.capacity());
 }

@@ -67,7 +67,9 @@ class SurfaceMotion : protected Pointers {
       which this goes back to the start; pass() goes on from there. */
   void begin_step(double dt);
   void pass(double duration) { ahead -= duration; }
-  /// Collective: paths of all vertices from now on.
+  /// When from now the middle of the step is.
+  double middle() const { return ahead - 0.5 * whole; }
+  /// Collective: paths of all vertices from now on, and accelerations.
   const std::vector<Membrane_NS::SurfaceVertex> &paths();
   /// Collective: vertices at rest where they are at the end of the step.
   const std::vector<Membrane_NS::SurfaceVertex> &places();
@@ -112,8 +114,9 @@ class SurfaceMotion : protected Pointers {
   std::vector<int> atom_vertex;    // place in part() of local atoms, or -1
   std::vector<int> counts, starts, listed;    // all ranks' owned vertices
   std::vector<double> mine, all;
-  double ahead;                             // time left of the step
+  double whole, ahead;                      // the step, and time left of it
   Membrane_NS::VertexField velocity;        // of owned vertices for the rest of it
+  Membrane_NS::VertexField acceleration;
   Membrane_NS::VertexField q, moved, r;
 
   void check_movers();
@@ -122,6 +125,7 @@ class SurfaceMotion : protected Pointers {
   void refresh();
   void load_positions();
   void load_displacements();
+  void load_accelerations();
   void share(int width);
   void change_velocities();
 };

@@ -220,7 +220,7 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
   if (have_walls) vertex_slack = most_slack();
   near.clear();
   grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
-  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
+  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
   if (solvent.count() == 0) return true;
 
   double *x = atom->x[0];
@@ -278,7 +278,7 @@ bool SurfaceObstacle::look(const Near &near, const SRDSolvent &solvent, double d
 void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
 {
   grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
-  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls);
+  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
   for (const Near &n : near) {
     if (!look(n, solvent, dt))
       error->one(FLERR, "{}: solvent moves further than {:.6g} in one step: use a shorter timestep",
