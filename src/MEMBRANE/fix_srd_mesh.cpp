@@ -42,6 +42,9 @@ static constexpr double DEGREE = 3.14159265358979323846 / 180.0;
 // with shorter free paths than these, in cells, solvent meets the same partners again and again
 static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
 
+// faces can be cut in 4 so many times
+static constexpr int MOST_LEVEL = 4;
+
 // default modulus in kT that keeps faces from turning over among solvent
 static constexpr double STIFF_MESH = 10.0;
 
@@ -50,7 +53,7 @@ static constexpr double STIFF_MESH = 10.0;
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
     cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
-    set_velocities(true), ghosts(false), bounces(0), search(0.0),
+    set_velocities(true), ghosts(false), level(0), bounces(0), search(0.0),
     solvent(lmp, igroup), streaming(lmp), have_obstacle(false), membranes_join(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     clear_forces(false), values{}, carried{}, sampled(-1)
@@ -71,6 +74,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
   settings.membranes = membrane;
   settings.no_slip = noslip;
   settings.control = control;
+  settings.level = level;
   settings.most_bounces = bounces;
   settings.spacing = search;
   settings.stray = cell_settings.size;
@@ -149,6 +153,10 @@ void FixSRDMesh::parse(int narg, char **arg)
       control = choice({"surface", "control"}) == 1;
     } else if (key == "inside") {
       inside = static_cast<Inside>(choice({"error", "warn", "ignore"}));
+    } else if (key == "level") {
+      level = utils::inumeric(FLERR, word, false, lmp);
+      if (level < 0 || level > MOST_LEVEL)
+        error->all(FLERR, "Fix srd/mesh level {} is not between 0 and {}", word, MOST_LEVEL);
     } else if (key == "bounce") {
       bounces = utils::inumeric(FLERR, word, false, lmp);
       if (bounces < 0) error->all(FLERR, "Fix srd/mesh bounce {} must not be negative", word);
@@ -185,11 +193,13 @@ void FixSRDMesh::parse(int narg, char **arg)
     } else
       error->all(FLERR,
                  "Unknown fix srd/mesh keyword {}; known are: lamda, angle, method, collision, "
-                 "impulse, inside, bounce, search, cubic, shift, tstat, velocity, "
+                 "impulse, level, inside, bounce, search, cubic, shift, tstat, velocity, "
                  "ghosts, wall, wall/velocity",
                  key);
     iarg += used;
   }
+  if (control && level > 0)
+    error->all(FLERR, "Fix srd/mesh impulse control acts on the triangles between vertices: leave out level");
   if (cell_settings.rule.method == CollisionRule::Method::AT_A && cell_settings.rule.thermostat)
     error->all(FLERR, "Fix srd/mesh method at+a is a thermostat: leave out tstat yes");
 }

@@ -74,7 +74,7 @@ class FixSRDMesh : public Fix {
   double cubic_tolerance;
   enum class Inside { ERROR, WARN, IGNORE } inside;
   bool noslip, control, set_velocities, ghosts;
-  int bounces;
+  int level, bounces;
   double search;
   SRDCells::Settings cell_settings;
 

@@ -126,24 +126,6 @@ bool TriangleCollision::find(const MovingPoint &point, const std::array<MovingPo
 
 /* ---------------------------------------------------------------------- */
 
-Vector3d Membrane_NS::collision_impulse(const TriangleHit &hit, const Vector3d &point_velocity,
-                                        const std::array<Vector3d, 3> &corner_velocities,
-                                        double inverse_mass,
-                                        const std::array<double, 3> &corner_inverse_masses,
-                                        bool no_slip)
-{
-  Vector3d relative = point_velocity;
-  double inverse = inverse_mass;
-  for (int k = 0; k < 3; ++k) {
-    relative -= hit.weight[k] * corner_velocities[k];
-    inverse += hit.weight[k] * hit.weight[k] * corner_inverse_masses[k];
-  }
-  const Vector3d turned = no_slip ? relative : relative.dot(hit.normal) * hit.normal;
-  return -2.0 / inverse * turned;
-}
-
-/* ---------------------------------------------------------------------- */
-
 std::array<double, 3> Membrane_NS::nearest_on_triangle(const Vector3d &x, const Vector3d &a,
                                                        const Vector3d &b, const Vector3d &c)
 {

@@ -60,18 +60,20 @@ class TriangleCollision {
             double begin, double end, bool touching, TriangleHit &hit) const;
 };
 
-/** The impulse that a point of mass m receives from a surface point x = sum b_k r_k of a triangle whose
-    corners are the masses d_k: v changes by J/m, w_k by -b_k J/d_k. With the effective inverse mass
-    s = sum b_k^2/d_k of the surface point and the relative velocity u = v - sum b_k w_k,
+/** The impulse J that a point of mass m receives from a surface point x = sum g_a r_a of point masses d_a:
+    v changes by J/m, w_a by -g_a J/d_a. With the relative velocity u = v - sum g_a w_a and the effective
+    inverse mass 1/mu = 1/m + sum g_a^2/d_a,
 
-      slip:     J = -2 (u.n) n / (1/m + s)        no slip:  J = -2 u / (1/m + s)
+      slip:     J = -2 mu (u.n) n        no slip:  J = -2 mu u
 
     which reverses u.n, or u, and so keeps the kinetic energy; linear momentum is kept because
-    sum b_k = 1, angular momentum because sum b_k r_k x J = x x J. */
-Eigen::Vector3d collision_impulse(const TriangleHit &hit, const Eigen::Vector3d &point_velocity,
-                                  const std::array<Eigen::Vector3d, 3> &corner_velocities,
-                                  double inverse_mass,
-                                  const std::array<double, 3> &corner_inverse_masses, bool no_slip);
+    sum g_a = 1, angular momentum because sum g_a r_a x J = x x J. */
+inline Eigen::Vector3d collision_impulse(const Eigen::Vector3d &relative,
+                                         const Eigen::Vector3d &normal, double inverse_mass,
+                                         bool no_slip)
+{
+  return -2.0 / inverse_mass * (no_slip ? relative : relative.dot(normal) * normal);
+}
 
 /// The point of a resting triangle that is nearest to x, as barycentric coordinates [C. Ericson,
 /// Real-Time Collision Detection, 5.1.5].

@@ -38,8 +38,12 @@ void CollisionEvents::begin(const std::vector<SurfaceVertex> &vertices,
   points_.clear();
   pairs_.clear();
   touched_.clear();
-  changes_.assign(vertices.size(), {Vector3d::Zero(), Vector3d::Zero()});
-  is_touched_.assign(vertices.size(), 0);
+  const size_t num_masses = settings_.corners ? settings_.corners->num_masses() : vertices.size();
+  changes_.assign(num_masses, {Vector3d::Zero(), Vector3d::Zero()});
+  is_touched_.assign(num_masses, 0);
+  masses_.resize(num_masses);
+  turned_.resize(vertices.size());
+  if (settings_.corners) detour_.assign(vertices.size(), Vector3d::Zero());
   paths_.resize(vertices.size());
   for (size_t v = 0; v < vertices.size(); ++v) paths_[v] = vertices[v].path;
   indexed_ = false;
@@ -77,10 +81,16 @@ void CollisionEvents::index_pairs()
 
 void CollisionEvents::reset()
 {
-  for (int v : touched_) {
-    paths_[v] = (*vertices_)[v].path;
-    changes_[v] = {Vector3d::Zero(), Vector3d::Zero()};
-    is_touched_[v] = 0;
+  for (int a : touched_) {
+    if (settings_.corners)
+      for (const auto &[v, w] : settings_.corners->corners_of(a)) {
+        paths_[v] = (*vertices_)[v].path;
+        detour_[v].setZero();
+      }
+    else
+      paths_[a] = (*vertices_)[a].path;
+    changes_[a] = {Vector3d::Zero(), Vector3d::Zero()};
+    is_touched_[a] = 0;
   }
   touched_.clear();
   impulses_.clear();
@@ -228,33 +238,75 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
 }
 
 /* ----------------------------------------------------------------------
+   which masses an impulse acts on, and with which part of it
+------------------------------------------------------------------------- */
+
+void CollisionEvents::Shares::resize(size_t n)
+{
+  who.clear();
+  share.assign(n, 0.0);
+  has.assign(n, 0);
+}
+
+void CollisionEvents::Shares::add(int i, double w)
+{
+  if (!has[i]) who.push_back(i);
+  has[i] = 1;
+  share[i] += w;
+}
+
+void CollisionEvents::Shares::clear()
+{
+  for (int i : who) {
+    share[i] = 0.0;
+    has[i] = 0;
+  }
+  who.clear();
+}
+
+void CollisionEvents::share(const std::array<int, 3> &vertex, const std::array<double, 3> &weight)
+{
+  masses_.clear();
+  for (int k = 0; k < 3; ++k)
+    if (settings_.corners)
+      for (const auto &[a, g] : settings_.corners->masses_of(vertex[k]))
+        masses_.add(a, weight[k] * g);
+    else
+      masses_.add(vertex[k], weight[k]);
+}
+
+void CollisionEvents::share(int control)
+{
+  masses_.clear();
+  const ControlWeights::Row &row = settings_.control->row(control);
+  for (size_t i = 0; i < row.vertex.size(); ++i) masses_.add(row.vertex[i], row.weight[i]);
+}
+
+/* ----------------------------------------------------------------------
    On the surface, with velocities of the time of the collision; where the point would not leave the
    surface for that, as when it grazes, with those of the paths. Seen backwards in time the choice is
    the same: it depends on whether both the velocity before and that after point the right way.
 ------------------------------------------------------------------------- */
 
-Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, double now) const
+Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, double now)
 {
   const auto &vertex = (*triangles_)[pair.triangle].vertex;
   const auto &b = pair.hit.weight;
+  const Vector3d &normal = pair.hit.normal;
   const bool no_slip = settings_.no_slip || point.bounces > settings_.most_bounces;
-  std::array<Vector3d, 3> velocities, later;
-  std::array<double, 3> inverse_masses;
-  Vector3d relative = point.now.velocity;
-  double inverse = point.inverse_mass;
+  Vector3d relative = point.now.velocity, later = Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
-    const SurfaceVertex &v = (*vertices_)[vertex[k]];
-    velocities[k] = paths_[vertex[k]].velocity;
-    later[k] = velocities[k] + (now - middle_) * v.acceleration;
-    inverse_masses[k] = v.inverse_mass;
-    relative -= b[k] * velocities[k];
-    inverse += b[k] * b[k] * v.inverse_mass;
+    relative -= b[k] * paths_[vertex[k]].velocity;
+    later -= b[k] * (*vertices_)[vertex[k]].acceleration;
   }
-  const Vector3d impulse = -collision_impulse(pair.hit, point.now.velocity, later,
-                                              point.inverse_mass, inverse_masses, no_slip);
-  if (pair.side * (relative - inverse * impulse).dot(pair.hit.normal) > 0.0) return impulse;
-  return -collision_impulse(pair.hit, point.now.velocity, velocities, point.inverse_mass,
-                            inverse_masses, no_slip);
+  later = relative + (now - middle_) * later;
+  share(vertex, b);
+  double inverse = point.inverse_mass;
+  for (int a : masses_.who) inverse += masses_.share[a] * masses_.share[a] * inverse_mass(a);
+
+  const Vector3d impulse = collision_impulse(later, normal, inverse, no_slip);
+  if (pair.side * (relative + inverse * impulse).dot(normal) > 0.0) return -impulse;
+  return -collision_impulse(relative, normal, inverse, no_slip);
 }
 
 /* ----------------------------------------------------------------------
@@ -268,25 +320,22 @@ bool CollisionEvents::hit_control(const Pair &pair, const Point &point, SurfaceI
   const auto &b = pair.hit.weight;
   const Vector3d &n = pair.hit.normal;
   const int nearest = done.vertex[std::max_element(b.begin(), b.end()) - b.begin()];
-  if ((*vertices_)[nearest].inverse_mass == 0.0) return false;
-  const ControlWeights::Row &row = settings_.control->row(nearest);
-
+  if (inverse_mass(nearest) == 0.0) return false;
+  share(nearest);
   Vector3d velocity = Vector3d::Zero();
   double inverse = point.inverse_mass;
-  std::array<double, 3> turns = {0.0, 0.0, 0.0};
-  for (size_t i = 0; i < row.vertex.size(); ++i) {
-    const int a = row.vertex[i];
-    const double l = row.weight[i], inverse_mass = (*vertices_)[a].inverse_mass;
+  for (int a : masses_.who) {
+    const double l = masses_.share[a];
     velocity += l * paths_[a].velocity;
-    inverse += l * l * inverse_mass;
-    for (int k = 0; k < 3; ++k)
-      if (done.vertex[k] == a) turns[k] = l * inverse_mass;
+    inverse += l * l * inverse_mass(a);
   }
   const double alpha = 2.0 * (point.now.velocity - velocity).dot(n) / inverse;
 
   double after = point.now.velocity.dot(n) - alpha * point.inverse_mass;
-  for (int k = 0; k < 3; ++k)
-    after -= b[k] * (paths_[done.vertex[k]].velocity.dot(n) + alpha * turns[k]);
+  for (int k = 0; k < 3; ++k) {
+    const int a = done.vertex[k];
+    after -= b[k] * (paths_[a].velocity.dot(n) + alpha * masses_.share[a] * inverse_mass(a));
+  }
   if (!(pair.side * after > 0.0)) return false;
   done.impulse = alpha * n;
   done.control = nearest;
@@ -297,31 +346,38 @@ bool CollisionEvents::hit_control(const Pair &pair, const Point &point, SurfaceI
 
 bool CollisionEvents::turn_vertices(const SurfaceImpulse &impulse)
 {
-  bool near = true;
+  if (impulse.control < 0)
+    share(impulse.vertex, impulse.weight);
+  else
+    share(impulse.control);
   turned_.clear();
-  if (impulse.control < 0) {
-    for (int k = 0; k < 3; ++k)
-      near &= turn_vertex(impulse.vertex[k], impulse.time, impulse.weight[k] * impulse.impulse);
-    return near;
+  const double time = impulse.time, rest = duration_ - time;
+  for (int a : masses_.who) {
+    const double w = masses_.share[a] * inverse_mass(a);
+    if (w == 0.0) continue;
+    const Vector3d turn = w * impulse.impulse;
+    if (!is_touched_[a]) touched_.push_back(a);
+    is_touched_[a] = 1;
+    changes_[a].velocity += turn;
+    changes_[a].position += rest * turn;
+    if (settings_.corners)
+      for (const auto &[v, g] : settings_.corners->corners_of(a)) turned_.add(v, g * w);
+    else {
+      paths_[a].turn(time, turn);
+      turned_.add(a, w);
+    }
   }
-  const ControlWeights::Row &row = settings_.control->row(impulse.control);
-  for (size_t i = 0; i < row.vertex.size(); ++i)
-    near &= turn_vertex(row.vertex[i], impulse.time, row.weight[i] * impulse.impulse);
+  bool near = true;
+  for (int v : turned_.who) {
+    if (settings_.corners) {
+      const Vector3d turn = turned_.share[v] * impulse.impulse;
+      paths_[v].turn(time, turn);
+      detour_[v] += rest * turn;
+    }
+    const Vector3d &detour = settings_.corners ? detour_[v] : changes_[v].position;
+    near = near && detour.squaredNorm() <= slack_ * slack_;
+  }
   return near;
-}
-
-bool CollisionEvents::turn_vertex(int v, double time, const Vector3d &momentum)
-{
-  const double inverse_mass = (*vertices_)[v].inverse_mass;
-  if (inverse_mass == 0.0) return true;
-  if (!is_touched_[v]) touched_.push_back(v);
-  is_touched_[v] = 1;
-  turned_.push_back(v);
-  const Vector3d turn = inverse_mass * momentum;
-  paths_[v].turn(time, turn);
-  changes_[v].velocity += turn;
-  changes_[v].position += turn * (duration_ - time);
-  return changes_[v].position.norm() <= slack_;
 }
 
 void CollisionEvents::foresee_around(double now)
@@ -329,7 +385,7 @@ void CollisionEvents::foresee_around(double now)
   ++clock_;
   dirty_.clear();
   const size_t num_pairs = pairs_.size();
-  for (int v : turned_)
+  for (int v : turned_.who)
     for (int j = vertex_pairs_start_[v]; j < vertex_pairs_start_[v + 1]; ++j) {
       const int p = vertex_pairs_[j], point = pairs_[p].point;
       if (seen_[p] == clock_) continue;

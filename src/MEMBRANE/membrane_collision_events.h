@@ -16,6 +16,7 @@
 
 #include "membrane_box_walls.h"
 #include "membrane_collision.h"
+#include "membrane_surface_corners.h"
 
 #include <cstdint>
 #include <queue>
@@ -23,10 +24,11 @@
 
 namespace Membrane_NS {
 
-/// A vertex of the surface: a point mass, or with inverse mass 0 one that nothing deflects.
+/// A vertex of the surface: a point mass, or with inverse mass 0 one that nothing deflects; of a finer
+/// surface, a mean of such masses.
 struct SurfaceVertex {
   MovingPoint path;
-  double inverse_mass = 0.0;
+  double inverse_mass = 0.0;                                 ///< not of a finer surface
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();    ///< by forces, see CollisionEvents
 };
 
@@ -68,8 +70,8 @@ class ControlWeights {
 /** All collisions of one time step between points and a surface, in the order of time.
 
     Between collisions points and vertices move on straight lines. A collision turns the point and
-    the three vertices of the triangle, and what was foreseen for points near these vertices is
-    foreseen anew: the step is the exact motion of the system of point masses with hard contacts,
+    the three vertices of the triangle, or the masses that these are means of and all vertices that hang
+    on those, and what was foreseen for points near these vertices is foreseen anew: the step is the exact motion of the system of point masses with hard contacts,
     so it keeps energy, momentum and angular momentum to rounding, is reversible, and preserves
     volume in phase space.
 
@@ -90,6 +92,9 @@ class CollisionEvents {
         are normal to the surface whatever no_slip says, and angular momentum is not kept. Where the
         point would not leave the surface, the impulse acts on the surface after all. */
     ControlWeights *control = nullptr;
+    /// If given, vertices are the corners of a finer surface and these are its masses; not with control.
+    const SurfaceCorners *corners = nullptr;
+    const std::vector<double> *inverse_masses = nullptr;
     double contact = 1.0e-10;    ///< see TriangleCollision
     /// A point that bounces this often in one step is sent back where it came from, and after as
     /// many again left alone.
@@ -137,9 +142,9 @@ class CollisionEvents {
   struct Change {
     Eigen::Vector3d velocity, position;
   };
-  /// Changes of vertices by all impulses, against straight motion from the start; zero for most.
+  /// Changes of masses by all impulses, against straight motion from the start; zero for most.
   const std::vector<Change> &changes() const { return changes_; }
-  /// The vertices with a change.
+  /// The masses with a change.
   const std::vector<int> &touched() const { return touched_; }
   /// Sum over collisions of the impulse normal to the surface, of points on side +1 and -1.
   const std::array<double, 2> &normal_impulse() const { return normal_impulse_; }
@@ -186,13 +191,24 @@ class CollisionEvents {
   std::vector<Change> changes_;
   std::vector<int> touched_;
   std::vector<char> is_touched_;
+
+  // of the impulse in hand: masses and their shares of it, vertices that it turns
+  struct Shares {
+    std::vector<int> who;
+    std::vector<double> share;    // zero of all others
+    std::vector<char> has;
+    void resize(size_t n);
+    void add(int i, double w);
+    void clear();
+  };
+  Shares masses_, turned_;
+  std::vector<Eigen::Vector3d> detour_;    // of vertices of a finer surface, at the end of the step
   std::vector<int> seen_, dirty_;
   int clock_ = 0;
   std::priority_queue<Event> queue_;
   BoxWalls walls_;
   bool have_walls_ = false;
   std::vector<SurfaceImpulse> impulses_;
-  std::vector<int> turned_;      // vertices of the last impulse
   std::array<double, 2> normal_impulse_ = {};
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   int abandoned_ = 0;
@@ -204,10 +220,15 @@ class CollisionEvents {
   void collide(const Event &event, Outcome &outcome);
   void hit_wall(const Event &event, Outcome &outcome);
   bool in_reach(const Point &point) const;
-  Eigen::Vector3d impulse_of(const Pair &pair, const Point &point, double now) const;
+  double inverse_mass(int mass) const
+  {
+    return settings_.corners ? (*settings_.inverse_masses)[mass] : (*vertices_)[mass].inverse_mass;
+  }
+  void share(const std::array<int, 3> &vertex, const std::array<double, 3> &weight);
+  void share(int control);
+  Eigen::Vector3d impulse_of(const Pair &pair, const Point &point, double now);
   bool hit_control(const Pair &pair, const Point &point, SurfaceImpulse &done);
   bool turn_vertices(const SurfaceImpulse &impulse);
-  bool turn_vertex(int v, double time, const Eigen::Vector3d &momentum);
   void foresee_around(double now);
 };
 

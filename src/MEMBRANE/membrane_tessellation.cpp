@@ -90,62 +90,36 @@ void FaceTessellation::evaluate(const Valences &valences, const StencilPoints &c
     points[p] = limit_point(values_.middleRows<LimitBasis::ROWS>(p * LimitBasis::ROWS));
 }
 
-/* ----------------------------------------------------------------------
-   number the points of a face in the whole surface
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-namespace {
+TessellationNumbering::TessellationNumbering(const Topology &topology, int n) :
+    topology_(topology), n_(n), edges_(topology.num_faces())
+{
+  int next = topology.num_vertices();
+  for (int f = 0; f < topology.num_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int g = topology.neighbor(f, k);
+      if (f > g) continue;
+      const int there = corner_of(topology.face(g), topology.face(f)[(k + 1) % 3]);
+      edges_[f][k] = {next, false};
+      edges_[g][there] = {next, true};
+      next += n - 1;
+    }
+  first_inside_ = next;
+}
 
-class Numbering {
- public:
-  Numbering(const Topology &topology, int n) :
-      topology_(topology), n_(n), edges_(topology.num_faces())
-  {
-    int next = topology.num_vertices();
-    for (int f = 0; f < topology.num_faces(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const int g = topology.neighbor(f, k);
-        if (f > g) continue;
-        const int there = corner_of(topology.face(g), topology.face(f)[(k + 1) % 3]);
-        edges_[f][k] = {next, false};
-        edges_[g][there] = {next, true};
-        next += n - 1;
-      }
-    first_inside_ = next;
-  }
-
-  int num_points() const { return first_inside_ + topology_.num_faces() * inside(); }
-
-  int number(int f, int i, int j) const
-  {
-    const Face &face = topology_.face(f);
-    const int k = n_ - i - j;
-    if (k == n_) return face[0];
-    if (i == n_) return face[1];
-    if (j == n_) return face[2];
-    if (j == 0) return on_edge(edges_[f][0], i);
-    if (k == 0) return on_edge(edges_[f][1], j);
-    if (i == 0) return on_edge(edges_[f][2], k);
-    return first_inside_ + f * inside() + (j - 1) * (n_ - 2) - (j - 1) * (j - 2) / 2 + i - 1;
-  }
-
- private:
-  struct Edge {
-    int first;
-    bool reversed;
-  };
-  const Topology &topology_;
-  int n_, first_inside_;
-  std::vector<std::array<Edge, 3>> edges_;
-
-  int inside() const { return (n_ - 1) * (n_ - 2) / 2; }
-  int on_edge(const Edge &edge, int step) const
-  {
-    return edge.first + (edge.reversed ? n_ - step : step) - 1;
-  }
-};
-
-}    // namespace
+int TessellationNumbering::number(int f, int i, int j) const
+{
+  const Face &face = topology_.face(f);
+  const int k = n_ - i - j;
+  if (k == n_) return face[0];
+  if (i == n_) return face[1];
+  if (j == n_) return face[2];
+  if (j == 0) return on_edge(edges_[f][0], i);
+  if (k == 0) return on_edge(edges_[f][1], j);
+  if (i == 0) return on_edge(edges_[f][2], k);
+  return first_inside_ + f * inside() + (j - 1) * (n_ - 2) - (j - 1) * (j - 2) / 2 + i - 1;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -153,7 +127,7 @@ TessellatedSurface Membrane_NS::tessellate(const Topology &topology, const Trian
                                            int n)
 {
   FaceTessellation cut(n);
-  const Numbering numbering(topology, n);
+  const TessellationNumbering numbering(topology, n);
   const int num_points = numbering.num_points();
 
   TessellatedSurface surface;

@@ -73,6 +73,32 @@ class FaceTessellation {
   const Eigen::MatrixXd &weights(const Valences &valences);
 };
 
+/** Numbers the points of all faces in the whole surface: first the vertices, then the points on edges,
+    then those inside faces. */
+class TessellationNumbering {
+ public:
+  /// The topology must outlive this.
+  TessellationNumbering(const Topology &topology, int n);
+  int num_points() const { return first_inside_ + topology_.num_faces() * inside(); }
+  /// Of point (i, j) of face f, see FaceTessellation.
+  int number(int f, int i, int j) const;
+
+ private:
+  struct Edge {
+    int first;
+    bool reversed;
+  };
+  const Topology &topology_;
+  int n_, first_inside_;
+  std::vector<std::array<Edge, 3>> edges_;
+
+  int inside() const { return (n_ - 1) * (n_ - 2) / 2; }
+  int on_edge(const Edge &edge, int step) const
+  {
+    return edge.first + (edge.reversed ? n_ - step : step) - 1;
+  }
+};
+
 /// A mesh on the limit surface.
 struct TessellatedSurface {
   TriangleMesh mesh;    ///< periodic if the control mesh is
@@ -81,9 +107,8 @@ struct TessellatedSurface {
   std::vector<int> face;    ///< a face of the control mesh that each point lies on
 };
 
-/** The whole limit surface, each face cut into n x n triangles. Every point occurs once: first the
-    vertices in their order, then those on edges, then those inside faces. Where several faces meet
-    the curvatures are the mean over these, which matters at extraordinary vertices only. */
+/** The whole limit surface, each face cut into n x n triangles, points as TessellationNumbering has
+    them. Where several faces meet the curvatures are the mean over these, which matters at extraordinary vertices only. */
 TessellatedSurface tessellate(const Topology &topology, const TriangleMesh &control, int n);
 
 /** For each connected component, the box vectors along which it continues through the box. A

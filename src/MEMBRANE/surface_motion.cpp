@@ -25,8 +25,11 @@
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
+#include "membrane_limit_basis.h"
+#include "membrane_tessellation.h"
 #include "modify.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -35,7 +38,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Membrane_NS::CollisionEvents;
 using Membrane_NS::MassKind;
+using Membrane_NS::SurfaceCorners;
 using Membrane_NS::SurfaceVertex;
+using Membrane_NS::TriangleMesh;
 using Membrane_NS::Vector4;
 using Membrane_NS::VertexField;
 
@@ -44,9 +49,9 @@ static constexpr double TOLERANCE = 1.0e-14;
 
 /* ---------------------------------------------------------------------- */
 
-SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, std::string user) :
+SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, std::string user) :
     Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
-    mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1),
+    level(level), mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1),
     whole(0.0), ahead(0.0)
 {
   mass.settings.kind = MassKind::VERTEX;
@@ -113,15 +118,19 @@ void SurfaceMotion::find_faces()
   group_components.clear();
   for (int c = 0; c < topology.num_components(); ++c)
     if (any[c]) group_components.push_back(c);
+  finer.reset();
+  if (level > 0) finer = std::make_unique<SurfaceCorners>(topology, 1 << level);
+  const auto &triangles = finer ? finer->triangles() : topology.faces();
+  const int parts = 1 << (2 * level);
   faces = {};
   face_component.clear();
-  for (int f = 0; f < topology.num_faces(); ++f) {
-    const int c = topology.component(topology.face(f)[0]);
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    const int c = topology.component(topology.face(t / parts)[0]);
     if (!any[c]) continue;
-    faces.faces.push_back(topology.face(f));
+    faces.faces.push_back(triangles[t]);
     face_component.push_back(c);
   }
-  vertices.assign(n, {{Vector3d::Zero(), Vector3d::Zero()}});
+  vertices.assign(finer ? finer->count() : n, {{Vector3d::Zero(), Vector3d::Zero()}});
   owner_of.assign(n, -1);
 }
 
@@ -143,9 +152,10 @@ void SurfaceMotion::find_masses()
   MPI_Allreduce(here.data(), sum.data(), 2 * n, MPI_DOUBLE, MPI_SUM, world);
   masses.assign(sum.begin(), sum.begin() + n);
   any_fixed = false;
+  inverse_masses.resize(n);
   for (int v = 0; v < n; ++v) {
     const bool free = sum[n + v] > 0.0;
-    vertices[v].inverse_mass = free ? 1.0 / masses[v] : 0.0;
+    vertices[v].inverse_mass = inverse_masses[v] = free ? 1.0 / masses[v] : 0.0;
     any_fixed = any_fixed || (masses[v] > 0.0 && !free);
   }
 }
@@ -187,20 +197,82 @@ void SurfaceMotion::setup()
     }
   }
 
-  faces.seams.clear();
   double length = 0.0;
-  for (const auto &face : faces.faces) {
-    std::array<std::array<int, 3>, 3> seam;
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d there = whole.points[face[0]] + whole.edge(face[0], face[k]);
-      seam[k] = in_lattice(there - whole.points[face[k]]);
-      length += whole.edge(face[k], face[(k + 1) % 3]).norm();
-    }
-    faces.seams.push_back(seam);
-  }
-  mean_edge = faces.faces.empty() ? 0.0 : length / (3.0 * faces.faces.size());
+  for (const auto &face : topology.faces())
+    for (int k = 0; k < 3; ++k) length += whole.edge(face[k], face[(k + 1) % 3]).norm();
+  mean_edge = length / std::max(1, 3 * topology.num_faces());
+  find_seams(whole);
   shared_epoch = -1;
   remember();
+}
+
+/* ----------------------------------------------------------------------
+   Box vectors between the places of a triangle's corners, and between a corner of a finer surface and the
+   mean of its masses. Where each face has its corners together, as its control points are, and where
+   corners and masses are that each have one place.
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::find_seams(const TriangleMesh &whole)
+{
+  const auto &topology = mesh().topology();
+  const Matrix3d to_fraction = lattice().inverse();
+  Membrane_NS::FaceTessellation cut(1 << level);
+  Membrane_NS::StencilPoints stencil;
+  std::vector<Membrane_NS::LimitPoint> points;
+  std::vector<Vector3d> place(vertices.size());
+  std::vector<char> placed(vertices.size(), 0);
+
+  // a mass is placed with its control point, as load_positions() does it
+
+  const int n = topology.num_vertices();
+  for (int v = 0; v < n; ++v) {
+    const double centre = Membrane_NS::limit_mask_centre(topology.valence(v));
+    place[v] = whole.points[v];
+    for (int u : topology.ring(v))
+      place[v] += (1.0 - centre) / topology.valence(v) * whole.edge(v, u);
+    placed[v] = 1;
+  }
+
+  std::vector<char> in_group(topology.num_components(), 0);
+  for (int c : group_components) in_group[c] = 1;
+  faces.seams.clear();
+  size_t t = 0;
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    const auto &face = topology.face(f);
+    if (!in_group[topology.component(face[0])]) continue;
+    Membrane_NS::stencil_points(topology, whole, f, stencil);
+    cut.evaluate({topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])},
+                 stencil, points);
+    for (const auto &corners : cut.triangles()) {
+      const auto &triangle = faces.faces[t++];
+      std::array<Vector3d, 3> images;
+      for (int k = 0; k < 3; ++k) {
+        const int corner = triangle[k];
+        if (!placed[corner]) place[corner] = points[corners[k]].position;
+        placed[corner] = 1;
+        images[k] = to_fraction * (points[corners[k]].position - place[corner]);
+      }
+      std::array<std::array<int, 3>, 3> seam;
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i)
+          seam[k][i] = static_cast<int>(std::lround(images[k][i] - images[0][i]));
+      faces.seams.push_back(seam);
+    }
+  }
+
+  seam_shift.assign(vertices.size(), Vector3d::Zero());
+  if (!finer) return;
+  const auto continues = Membrane_NS::continuing_directions(topology, whole);
+  for (size_t v = n; v < vertices.size(); ++v) {
+    if (!placed[v]) continue;
+    const auto masses = finer->masses_of(v);
+    Vector3d mean = Vector3d::Zero();
+    for (const auto &[a, g] : masses) mean += g * place[a];
+    const Vector3d shift = to_fraction * (place[v] - mean);
+    const auto &here = continues[topology.component(masses.begin()->first)];
+    for (int k = 0; k < 3; ++k)
+      if (here[k]) seam_shift[v][k] = shift[k];
+  }
 }
 
 Matrix3d SurfaceMotion::lattice() const
@@ -284,7 +356,7 @@ void SurfaceMotion::load_displacements()
   const Matrix3d box = lattice(), to_fraction = box.inverse();
   if (any_fixed)
     for (int i = 0; i < part.owned; ++i) {
-      if (vertices[part.vertices[i]].inverse_mass > 0.0) continue;
+      if (is_free(part.vertices[i])) continue;
       const Vector3d d = Vector3d::Map(atom->x[part.atom_of(i)]) - Vector3d::Map(remembered[i].c);
       Vector3d images = to_fraction * d;    // where another fix has wrapped it
       for (int k = 0; k < 3; ++k) images[k] = domain->periodicity[k] ? std::round(images[k]) : 0.0;
@@ -364,6 +436,7 @@ const std::vector<SurfaceVertex> &SurfaceMotion::paths()
     vertex.path = {Vector3d::Map(&all[9 * i]), Vector3d::Map(&all[9 * i + 3])};
     vertex.acceleration = Vector3d::Map(&all[9 * i + 6]);
   }
+  place_corners();
   return vertices;
 }
 
@@ -378,7 +451,25 @@ const std::vector<SurfaceVertex> &SurfaceMotion::places()
   share(3);
   for (size_t i = 0; i < listed.size(); ++i)
     vertices[listed[i]].path = {Vector3d::Map(&all[3 * i]), Vector3d::Zero()};
+  place_corners();
   return vertices;
+}
+
+void SurfaceMotion::place_corners()
+{
+  if (!finer) return;
+  const Matrix3d box = lattice();
+  for (size_t v = finer->num_masses(); v < vertices.size(); ++v) {
+    SurfaceVertex corner;
+    corner.path = {box * seam_shift[v], Vector3d::Zero()};
+    for (const auto &[a, g] : finer->masses_of(v)) {
+      const SurfaceVertex &one = vertices[a];
+      corner.path.origin += g * one.path.origin;
+      corner.path.velocity += g * one.path.velocity;
+      corner.acceleration += g * one.acceleration;
+    }
+    vertices[v] = corner;
+  }
 }
 
 void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
@@ -447,6 +538,7 @@ double SurfaceMotion::memory_usage() const
       sizeof(double) * (mine.capacity() + all.capacity() + masses.capacity()) +
       sizeof(int) * (listed.capacity() + owner_of.capacity() + atom_vertex.capacity() +
                      6 * offset.capacity()) +
+      (finer ? finer->memory_usage() : 0.0) +
       faces.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int)) +
       sizeof(Vector4) *
       (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity() +

@@ -18,6 +18,7 @@
 #include "hd_mass.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
+#include "membrane_surface_corners.h"
 
 #include <array>
 #include <memory>
@@ -26,15 +27,17 @@
 
 namespace LAMMPS_NS {
 
-/** The limit positions of the control points of a group of membranes as moving point masses: where
-    they are and go in a step, for all ranks, and what impulses on them do to the control points.
+/** The limit positions of the control points of a group of membranes as moving point masses, and the
+    surface that they span: where they are and go in a step, for all ranks, and what impulses on them
+    do to the control points.
 
-    Vertices are those of the whole mesh; positions are unwrapped and, surface by surface, in one
+    Masses are those of the whole mesh, and vertices are these masses, or the corners of a finer surface, the
+    first of which they are. Positions are unwrapped and, surface by surface, in one
     piece, as DistributedMesh::unwrapped() has them. Vertices of other groups stay unset. */
 class SurfaceMotion : protected Pointers {
  public:
-  /// `user` is named in errors.
-  SurfaceMotion(class LAMMPS *, int igroup, std::string user);
+  /// The surface is that of SurfaceCorners with faces cut in 2^level x 2^level. `user` is named in errors.
+  SurfaceMotion(class LAMMPS *, int igroup, int level, std::string user);
 
   // === Life cycle
 
@@ -49,14 +52,18 @@ class SurfaceMotion : protected Pointers {
   // === The surface
 
   const Membrane_NS::SurfaceFaces &surface() const { return faces; }
+  /// Of level 1 and above; else null.
+  const Membrane_NS::SurfaceCorners *corners() const { return finer.get(); }
   /// The component of the mesh that a face of surface() is part of; components without faces here
   /// belong to other groups.
   int component(int face) const { return face_component[face]; }
   /// Components of the group.
   const std::vector<int> &components() const { return group_components; }
   DistributedMesh &mesh() { return mass.mesh(); }
-  /// Mean length of an edge at setup().
+  /// Mean length of an edge of the mesh at setup().
   double edge() const { return mean_edge; }
+  /// And of the surface.
+  double surface_edge() const { return mean_edge / (1 << level); }
   /// The box vectors as columns.
   Eigen::Matrix3d lattice() const;
   std::array<bool, 3> periodic() const;
@@ -75,7 +82,7 @@ class SurfaceMotion : protected Pointers {
   const std::vector<Membrane_NS::SurfaceVertex> &places();
   /// What the last of these two returned.
   const std::vector<Membrane_NS::SurfaceVertex> &current() const { return vertices; }
-  /// The rank that owns a vertex, as of the last paths() or places().
+  /// The rank that owns a mass, as of the last paths() or places().
   int owner(int vertex) const { return owner_of[vertex]; }
   /// Changes when vertices have new owners.
   bigint epoch() { return mass.mesh().epoch(); }
@@ -90,19 +97,22 @@ class SurfaceMotion : protected Pointers {
   /// Owned vertices in the order of their atoms.
   MeshPart &part() { return mass.part(); }
   Membrane_NS::MassOperator &matrix() { return mass.matrix(); }
-  double mass_of(int vertex) const { return masses[vertex]; }
-  bool is_free(int vertex) const { return vertices[vertex].inverse_mass > 0.0; }
+  double mass_of(int mass) const { return masses[mass]; }
+  const std::vector<double> &all_inverse_masses() const { return inverse_masses; }
+  bool is_free(int mass) const { return inverse_masses[mass] > 0.0; }
   double memory_usage() const;
 
  private:
   std::string user;
-  int igroup, groupbit;
+  int igroup, groupbit, level;
   HDMass mass;
+  std::unique_ptr<Membrane_NS::SurfaceCorners> finer;
+  std::vector<Eigen::Vector3d> seam_shift;    // from masses' mean to corner, in box vectors
   std::vector<class FixHDBase *> integrators;
   Membrane_NS::SurfaceFaces faces;
   std::vector<int> face_component, group_components;
   std::vector<Membrane_NS::SurfaceVertex> vertices;
-  std::vector<double> masses;
+  std::vector<double> masses, inverse_masses;
   std::vector<int> owner_of;
   double mean_edge;
 
@@ -127,6 +137,8 @@ class SurfaceMotion : protected Pointers {
   void load_displacements();
   void load_accelerations();
   void share(int width);
+  void find_seams(const Membrane_NS::TriangleMesh &whole);
+  void place_corners();
   void change_velocities();
 };
 

@@ -40,7 +40,7 @@ using Membrane_NS::SurfaceGrid;
 using Membrane_NS::VertexField;
 using Membrane_NS::SurfaceImpulse;
 
-// all of these in edges of the mesh
+// all of these in edges of the mesh; those of the grid, of the surface
 
 // see TriangleCollision: far above rounding, also of coordinates in a large box
 static constexpr double CONTACT = 1.0e-10;
@@ -62,8 +62,9 @@ static constexpr double FAST = 2.5;
 /* ---------------------------------------------------------------------- */
 
 SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
-    Pointers(lmp), motion(lmp, settings.membranes, settings.user),
+    Pointers(lmp), motion(lmp, settings.membranes, settings.level, settings.user),
     regions(lmp, motion, settings.user), tally{}, settings(settings), built_epoch(-1),
+    everywhere(settings.control || settings.level > 0),
     vertex_slack(0.0), point_slack(0.0), clearance(nullptr), travelled(0.0), fastest(0.0),
     lattice(Eigen::Matrix3d::Zero()), vertices(nullptr)
 {
@@ -102,6 +103,10 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
   if (settings.control) {
     inverse_mask = std::make_unique<Membrane_NS::InverseMask>(motion.mesh().topology());
     rule.control = inverse_mask.get();
+  }
+  if (motion.corners()) {
+    rule.corners = motion.corners();
+    rule.inverse_masses = &motion.all_inverse_masses();
   }
   events = CollisionEvents(rule);
   grid = {};
@@ -181,7 +186,7 @@ void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
     hi = hi.cwiseMax(x + room);
     square += v.squaredNorm();
   }
-  const double edge = motion.edge();
+  const double edge = motion.surface_edge();
   SurfaceGrid::Settings s;
   s.skin = SKIN * edge;
   s.reach = REACH * edge + FAST * dt * std::sqrt(square / std::max(1, solvent.count()));
@@ -191,7 +196,7 @@ void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
   grid.build(motion.surface(), *vertices, motion.lattice(), motion.periodic(), lo - margin,
              hi + margin, s);
   built_epoch = motion.epoch();
-  if (comm->nprocs > 1) find_shared();
+  if (comm->nprocs > 1 && !everywhere) find_shared();
 }
 
 /* ----------------------------------------------------------------------
@@ -206,7 +211,7 @@ void SurfaceObstacle::find_shared()
     for (int v : motion.surface().faces[image.face]) users[v] = motion.owner(v) == comm->me ? 1 : 2;
   MPI_Allreduce(users.data(), sum.data(), n, MPI_INT, MPI_SUM, world);
   shared.resize(n);
-  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1 || settings.control;
+  for (size_t v = 0; v < n; ++v) shared[v] = sum[v] > 1;
 }
 
 /* ----------------------------------------------------------------------
@@ -326,7 +331,7 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
       take_back(solvent, dt);
     } else
       error->one(FLERR,
-                 "{}: solvent deflects a vertex by more than {} of an edge in one step: use a "
+                 "{}: solvent deflects the surface by more than {} of an edge in one step: use a "
                  "shorter timestep or heavier control points",
                  settings.user, MOST_SLACK);
     look_again(solvent, walls, dt);
@@ -342,12 +347,14 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
 bool SurfaceObstacle::exchange()
 {
   std::vector<SurfaceImpulse> mine;
-  for (const SurfaceImpulse &impulse : events.impulses())
-    for (int v : impulse.vertex)
-      if (shared[v] && motion.is_free(v)) {
-        mine.push_back(impulse);
-        break;
-      }
+  if (everywhere) mine = events.impulses();
+  else
+    for (const SurfaceImpulse &impulse : events.impulses())
+      for (int v : impulse.vertex)
+        if (shared[v] && motion.is_free(v)) {
+          mine.push_back(impulse);
+          break;
+        }
 
   const int nprocs = comm->nprocs;
   int bytes = static_cast<int>(mine.size() * sizeof(SurfaceImpulse));

@@ -33,11 +33,12 @@ namespace LAMMPS_NS {
     exchanges impulses, and keeps it on its own side.
 
     The surface is made of the triangles between the limit positions of the vertices, which are the
-    point masses of `mass vertex`. */
+    point masses of `mass vertex`, or of finer triangles. */
 class SurfaceObstacle : protected Pointers {
  public:
   struct Settings {
     int membranes = 0;          ///< their group
+    int level = 0;              ///< of the surface, see SurfaceMotion
     bool no_slip = false;
     bool control = false;       ///< impulses act on control points
     int most_bounces = 0;       ///< of an atom in one step; 0 for very many
@@ -92,7 +93,8 @@ class SurfaceObstacle : protected Pointers {
   Membrane_NS::SurfaceGrid grid;
   std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
   bigint built_epoch;
-  std::vector<char> shared;    // vertices that atoms of several ranks may touch
+  bool everywhere;             // impulses act far from where they are, too
+  std::vector<char> shared;    // if not: vertices that atoms of several ranks may touch
   struct Near {                // an atom that may meet triangles in this step
     int atom;
     Membrane_NS::MovingPoint path;

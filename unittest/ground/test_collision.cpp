@@ -22,12 +22,15 @@
 #include "membrane_limit_basis.h"
 #include "membrane_mesh_shapes.h"
 #include "membrane_side.h"
+#include "membrane_surface_corners.h"
+#include "membrane_tessellation.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 using namespace Membrane_NS;
@@ -58,9 +61,12 @@ double volume(const MovingPoint &p, const Corners &c, double t)
   return (p.at(t) - a).dot((c[1].at(t) - a).cross(c[2].at(t) - a));
 }
 
-/// A surface of point masses and the points that fly beside it, in a periodic box.
+/** A surface of point masses and the points that fly beside it, in a periodic box; finer surfaces only
+    where nothing is periodic. */
 struct Gas {
   TriangleMesh mesh;
+  std::unique_ptr<SurfaceCorners> corners;
+  std::vector<double> inverse_masses;
   SurfaceFaces surface;
   std::vector<SurfaceVertex> vertices;
   std::vector<MovingPoint> points;
@@ -70,8 +76,7 @@ struct Gas {
   SurfaceGrid grid;
   long collisions = 0, strayed = 0;
 
-  Gas(TriangleMesh m, double vertex_mass, bool no_slip = false) :
-      mesh(std::move(m)), events(settings(no_slip))
+  Gas(TriangleMesh m, double vertex_mass, bool no_slip = false, int n = 1) : mesh(std::move(m))
   {
     surface.faces = mesh.faces;
     const Matrix3d to_fraction = mesh.lattice.inverse();
@@ -86,13 +91,36 @@ struct Gas {
     }
     for (const Vector3d &x : mesh.points)
       vertices.push_back({{x, Vector3d::Zero()}, vertex_mass > 0 ? 1.0 / vertex_mass : 0.0});
+    CollisionEvents::Settings settings;
+    settings.no_slip = no_slip;
+    if (n > 1) {
+      corners = std::make_unique<SurfaceCorners>(Topology(mesh.points.size(), mesh.faces), n);
+      surface = {corners->triangles(), {}};
+      for (const SurfaceVertex &v : vertices) inverse_masses.push_back(v.inverse_mass);
+      vertices.resize(corners->count());
+      settings.corners = corners.get();
+      settings.inverse_masses = &inverse_masses;
+      place_corners();
+    }
+    events = CollisionEvents(settings);
   }
 
-  static CollisionEvents::Settings settings(bool no_slip)
+  void place_corners()
   {
-    CollisionEvents::Settings s;
-    s.no_slip = no_slip;
-    return s;
+    for (size_t v = mesh.points.size(); v < vertices.size(); ++v) {
+      MovingPoint path = {Vector3d::Zero(), Vector3d::Zero()};
+      for (const auto &[a, g] : corners->masses_of(v)) {
+        path.origin += g * vertices[a].path.origin;
+        path.velocity += g * vertices[a].path.velocity;
+      }
+      vertices[v].path = path;
+    }
+  }
+
+  void shake(double speed, Random &random)
+  {
+    for (size_t v = 0; v < mesh.points.size(); ++v) vertices[v].path.velocity = random.normal(speed);
+    place_corners();
   }
 
   Vector3d fraction(const Vector3d &x) const { return mesh.lattice.inverse() * x; }
@@ -101,7 +129,7 @@ struct Gas {
   {
     std::vector<Vector3d> s;
     for (const SurfaceVertex &v : vertices) s.push_back(fraction(v.path.origin));
-    return SurfaceSide(s, mesh.faces, axis, mesh.periodic);
+    return SurfaceSide(s, surface.faces, axis, mesh.periodic);
   }
 
   void fill(int n, double speed, Random &random, int axis = 2)
@@ -216,6 +244,7 @@ struct Gas {
       vertices[v].path.velocity += events.changes()[v].velocity;
       vertices[v].path.origin += events.changes()[v].position;
     }
+    place_corners();
   }
 
   // points that are not where they belong
@@ -374,8 +403,9 @@ TEST(CollisionImpulse, KeepsEnergyMomentumAndAngularMomentum)
     const auto [e0, p0, l0] = sums();
     const Vector3d before = relative();
     const bool no_slip = n % 3 == 0;
-    const Vector3d impulse =
-        collision_impulse(hit, point.velocity, w, 1.0 / mass, inverse_masses, no_slip);
+    double inverse = 1.0 / mass;
+    for (int k = 0; k < 3; ++k) inverse += hit.weight[k] * hit.weight[k] * inverse_masses[k];
+    const Vector3d impulse = collision_impulse(before, hit.normal, inverse, no_slip);
     point.velocity += impulse / mass;
     for (int k = 0; k < 3; ++k) w[k] -= hit.weight[k] * inverse_masses[k] * impulse;
     const auto [e1, p1, l1] = sums();
@@ -421,11 +451,11 @@ TEST(NearestOnTriangle, IsNearerThanAnyOtherPoint)
 
 TEST(CollisionEvents, KeepEnergyMomentumAndAngularMomentumOfAStep)
 {
-  for (bool no_slip : {false, true}) {
+  for (auto [no_slip, n] : {std::pair(false, 1), {true, 1}, {false, 2}, {true, 4}}) {
     Random random(5);
-    TriangleMesh mesh = icosphere(2, 1.0);
-    Gas gas(mesh, 0.2, no_slip);
-    for (SurfaceVertex &v : gas.vertices) v.path.velocity = random.normal(0.1);
+    TriangleMesh mesh = icosphere(n == 4 ? 1 : 2, 1.0);
+    Gas gas(mesh, 0.2, no_slip, n);
+    gas.shake(0.1, random);
     for (int i = 0; i < 3000; ++i) {
       gas.points.push_back({random.vector(1.3), random.normal(1.0)});
       gas.level.push_back(gas.side().level(gas.points.back().origin));
@@ -442,11 +472,11 @@ TEST(CollisionEvents, KeepEnergyMomentumAndAngularMomentumOfAStep)
   }
 }
 
-TEST(CollisionEvents, AStepIsReversible)
+static void expect_reversible(int n)
 {
   Random random(6);
-  Gas gas(icosphere(2, 1.0), 0.2);
-  for (SurfaceVertex &v : gas.vertices) v.path.velocity = random.normal(0.1);
+  Gas gas(icosphere(2, 1.0), 0.2, false, n);
+  gas.shake(0.1, random);
   for (int i = 0; i < 3000; ++i) {
     gas.points.push_back({random.vector(1.3), random.normal(1.0)});
     gas.level.push_back(gas.side().level(gas.points.back().origin));
@@ -473,6 +503,16 @@ TEST(CollisionEvents, AStepIsReversible)
     worst = std::max({worst, (gas.vertices[v].path.origin - vertices[v].path.origin).norm(),
                       (gas.vertices[v].path.velocity - vertices[v].path.velocity).norm()});
   EXPECT_LT(worst, 1e-9);
+}
+
+TEST(CollisionEvents, AStepIsReversible)
+{
+  expect_reversible(1);
+}
+
+TEST(CollisionEvents, AStepIsReversibleOnAFinerSurface)
+{
+  expect_reversible(2);
 }
 
 TEST(CollisionEvents, ImpulsesFromOutsideActAtTheirTime)
@@ -519,9 +559,10 @@ TEST(CollisionEvents, ImpulsesFromOutsideActAtTheirTime)
 
 static void tie(Gas &gas, const TriangleMesh &shape, double strength)
 {
-  for (size_t v = 0; v < gas.vertices.size(); ++v)
+  for (size_t v = 0; v < shape.points.size(); ++v)
     gas.vertices[v].path.velocity -=
         gas.time_step * strength * (gas.vertices[v].path.origin - shape.points[v]);
+  gas.place_corners();
 }
 
 TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
@@ -537,7 +578,7 @@ TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
     for (Vector3d &x : mesh.points) x += Vector3d(0.2, -0.1, 3.0);
     Gas gas(mesh, 0.5, no_slip);
     gas.fill(4000, 1.0, random);
-    for (SurfaceVertex &v : gas.vertices) v.path.velocity = random.normal(0.3);
+    gas.shake(0.3, random);
     const SurfaceSide where = gas.side();
     int leaks = 0;
     for (int step = 0; step < 300; ++step) {
@@ -552,6 +593,74 @@ TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
     }
     EXPECT_EQ(leaks, 0);
     EXPECT_GT(gas.collisions, 5000);
+  }
+}
+
+TEST(CollisionEvents, NothingLeaksThroughAFinerVesicle)
+{
+  for (bool no_slip : {false, true}) {
+    Random random(8);
+    const TriangleMesh mesh = icosphere(1, 1.0);
+    Gas gas(mesh, 5.0, no_slip, 4);    // lighter, and triangles would turn over
+    for (int i = 0; i < 2000; ++i) {
+      gas.points.push_back({random.vector(1.2), random.normal(1.0)});
+      gas.level.push_back(0);
+    }
+    const SurfaceSide where = gas.side();
+    for (size_t i = 0; i < gas.points.size(); ++i)
+      gas.level[i] = where.level(gas.points[i].origin);
+    gas.shake(1.0, random);
+    int leaks = 0;
+    for (int step = 0; step < 100; ++step) {
+      gas.stream(where);
+      tie(gas, mesh, 1600.0);
+      for (MovingPoint &p : gas.points)    // back to where the surface is
+        for (int k = 0; k < 3; ++k)
+          if (std::fabs(p.origin[k]) > 1.2) p.velocity[k] = -std::copysign(p.velocity[k], p.origin[k]);
+      if (step % 20 == 19) leaks += gas.crossings();
+    }
+    EXPECT_EQ(leaks, 0);
+    EXPECT_GT(gas.collisions, 1000);
+  }
+}
+
+TEST(SurfaceCorners, AreOnTheLimitSurface)
+{
+  // valences 3 to 12 and a torus; r = L q and corners from r, against tessellate() from q
+
+  Random random(10);
+  for (TriangleMesh mesh : {icosphere(1, 1.0), torus(12, 8, 2.0, 0.7)}) {
+    for (Vector3d &x : mesh.points) x += random.vector(0.05);
+    const Topology topology(mesh.points.size(), mesh.faces);
+    std::vector<Vector3d> limit;
+    for (size_t v = 0; v < mesh.points.size(); ++v) {
+      const double c = limit_mask_centre(topology.valence(v));
+      Vector3d r = c * mesh.points[v];
+      for (int u : topology.ring(v)) r += (1 - c) / topology.valence(v) * mesh.points[u];
+      limit.push_back(r);
+    }
+    for (int n : {1, 2, 4}) {
+      const SurfaceCorners corners(topology, n);
+      const TessellatedSurface surface = tessellate(topology, mesh, n);
+      ASSERT_EQ(corners.count(), (int) surface.mesh.points.size());
+      EXPECT_EQ(corners.triangles(), surface.mesh.faces);
+      for (int c = 0; c < corners.count(); ++c) {
+        Vector3d r = Vector3d::Zero();
+        double sum = 0.0;
+        for (const auto &[a, g] : corners.masses_of(c)) {
+          r += g * limit[a];
+          sum += g;
+        }
+        EXPECT_LT((r - surface.mesh.points[c]).norm(), 1e-7);
+        EXPECT_NEAR(sum, 1.0, 1e-14);
+      }
+      for (int a = 0; a < corners.num_masses(); ++a)
+        for (const auto &[c, g] : corners.corners_of(a)) {
+          double weight = 0.0;
+          for (const auto &[b, w] : corners.masses_of(c)) weight += b == a ? w : 0.0;
+          EXPECT_EQ(weight, g);
+        }
+    }
   }
 }
 

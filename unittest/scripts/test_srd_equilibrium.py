@@ -2,8 +2,7 @@
 around it, and has the undulations of theory: in equilibrium they do not depend on what surrounds it.
 
 A sheet of 8 x 8 points, kc = 200 kT, in a periodic box of solvent with the only thermostat. Theory for the sheet is
-that of the discrete system without solvent, as in test_spectrum.py, and of the integrator: velocity Verlet with
-velocities of temperature T gives a wave of frequency w the power 1/(1 - (w dt)^2/4). Such a wave moves the solvent
+that of the discrete system without solvent, as in test_spectrum.py. A wave moves the solvent
 within 1/q on its two sides,
 
     w^2 = kc q^4/(rho_s + 2 rho/q),
@@ -14,11 +13,12 @@ so in the thermostat. With slip they only meet solvent that bounces off along th
 motion across the sheet is compared, since motion along it has nothing but bending to exchange energy with, and
 takes far longer than this run to reach equilibrium.
 
-Collisions with the surface use velocities of the middle of a step, whose energy is larger than that at its ends by
-(w dt)^2/4: on average over all waves of the sheet in vacuum 2 % at this timestep, a quarter of its limit. A membrane
-that meets solvent in such collisions alone is up to so much colder than the solvent.
+The membrane meets solvent in the middle of steps, where its velocities have the temperature of the solvent and from
+where positions have their exact distribution at the ends; there, where temperature is measured, velocities are
+smaller by (w dt)^2/4 of their energy. On average over all waves of the sheet in vacuum that is 0.3 % at this timestep, a
+tenth of its limit; with velocities on time it would be 0 here and as much too hot in the middle.
 
-    MEMBRANE_LONG=1    seven times as long, and collision slip, too
+    MEMBRANE_LONG=1    three times as long, and collision slip, too
 """
 # timeout: 3600
 
@@ -30,8 +30,8 @@ from lattice_waves import EDGES, inertia, stiffness, surface
 from mode_statistics import averages, compare, mean_and_error
 
 LONG = bool(os.environ.get("MEMBRANE_LONG"))
-BLOCKS, EVERY, STEPS = 32, 20, (20000 if LONG else 3000)    # of a block
-N, NMAX, HEIGHT, KC, M, VERTEX_MASS, DT = 8, 2, 8, 200.0, 5, 10.0, 0.01
+BLOCKS, EVERY, STEPS = 32, 25, (50000 if LONG else 15000)    # of a block
+N, NMAX, HEIGHT, KC, M, VERTEX_MASS, DT = 8, 2, 8, 200.0, 5, 10.0, 0.004
 WIDTH, DEPTH = N, N * EDGES[1][1]
 AREA = WIDTH * DEPTH
 WAVES = [(0, ny) for ny in range(1, NMAX + 1)] + [(nx, ny) for nx in range(1, NMAX + 1) for ny in range(-NMAX, NMAX + 1)]
@@ -53,7 +53,7 @@ special_bonds   lj/coul 1 1 1
 pair_style      helfrich
 pair_coeff      1 1 {KC} 0.0 regularize {0.5 * KC}
 fix             1 membrane hd/nve
-fix             srd solvent srd/mesh 10 membrane 1.0 1.0 4711 angle 130 shift yes 9127 tstat yes cubic error 0.02 &
+fix             srd solvent srd/mesh 25 membrane 1.0 1.0 4711 angle 130 shift yes 9127 tstat yes cubic error 0.02 &
                 collision {{collision}}
 compute         m membrane hd/modes plane {NMAX}
 compute         T membrane hd/temp
@@ -74,8 +74,7 @@ run             {BLOCKS * STEPS}
 def expected(wave):
     q = (2 * math.pi * wave[0] / WIDTH, 2 * math.pi * wave[1] / DEPTH)
     size = math.hypot(*q)
-    square = KC * size ** 4 / (VERTEX_MASS / EDGES[1][1] + 2 * M / size)
-    return surface(q) ** 2 / (AREA * KC * stiffness(q, 6)) / (1 - square * DT * DT / 4)
+    return surface(q) ** 2 / (AREA * KC * stiffness(q, 6))
 
 
 def middle_of_step():
@@ -93,13 +92,10 @@ for collision, component in (("noslip", 0), ("slip", 1)):
     membrane, solvent = (mean_and_error([row[k] for row in rows]) for k in (component, 2))
     difference = mean_and_error([row[component] / row[2] - 1 for row in rows])
     measured = f"membrane {membrane[0]:.4f} +- {membrane[1]:.4f}, solvent {solvent[0]:.4f} +- {solvent[1]:.4f}"
-    if collision == "noslip":
-        claim("noslip: membrane and solvent have the same temperature within 1 %",
-              abs(difference[0]) + 2 * difference[1] < 0.01, measured)
-    else:
-        colder = middle_of_step()
-        claim(f"slip: across the sheet, too, less at most the {100 * colder:.1f} % of the middle of a step",
-              -colder - 2 * difference[1] < difference[0] < 2 * difference[1] < 0.01, measured)
+    along = "across the sheet, " if component else ""
+    claim(f"{collision}: {along}membrane and solvent have the same temperature within 1 %",
+          abs(difference[0]) + 2 * difference[1] < 0.01,
+          f"{measured}; in the middle of steps it is {100 * middle_of_step():.2f} % higher")
     claim("    and no solvent has crossed", rows[-1][3] == 0.0)
     blocks, groups = averages("power.txt"), {}
     for i, wave in enumerate(WAVES):

@@ -109,7 +109,8 @@ def gap(a, b):
 
 for name, at, v in (("from inside", "0.2 0.1 -0.3", "1.7 -0.9 1.1"),
                     ("from outside", "1.4 -0.9 0.3", "-2.0 1.5 -0.6")):
-    for args in ("collision slip", "collision noslip", "impulse control collision slip"):
+    for args in ("collision slip", "collision noslip", "level 1 collision slip", "level 3 collision noslip",
+                 "impulse control collision slip"):
         row, (before, after) = one(at, v, args)
         (e0, p0, l0), (e1, p1, l1) = sums(before), sums(after)
         turned = gap(before[5], after[5])
@@ -219,6 +220,19 @@ SCENES = {
     "torus in a tilted box": Scene(
         "create_membrane 1 torus 24 10 2.2 0.9 center 1 7 0\n" + SOLVENT.format(3000), energy=CLOSED,
         box="prism 0 8 0 8 0 8 2.0 -1.0 1.5", inside=True),
+    "vesicle across the corner, level 2": Scene(
+        "create_membrane 1 sphere 2 2.5 center 0.3 7.9 0.2\n" + SOLVENT.format(3000), energy=CLOSED,
+        args="level 2 collision noslip", inside=True),
+    "sheet of few points, level 1": Scene("create_membrane 1 plane 6 6\n" + SOLVENT.format(3000),
+                                          args="level 1 collision noslip"),
+    "two sheets, level 1": Scene(
+        "create_membrane 1 plane 13 16 center 0 0 -0.15\ncreate_membrane 1 plane 13 16 center 0 0 0.15\n" +
+        SOLVENT.format(3000), args="level 1 collision slip"),
+    "torus in a tilted box, level 1": Scene(
+        "create_membrane 1 torus 24 10 2.2 0.9 center 1 7 0\n" + SOLVENT.format(3000), energy=CLOSED,
+        box="prism 0 8 0 8 0 8 2.0 -1.0 1.5", args="level 1 collision slip", inside=True),
+    "tube along x, level 1, held": Scene("create_membrane 1 cylinder 18 16 2.0 x\n" + SOLVENT.format(3000),
+                                         args="level 1 collision noslip", move="", kept=()),
     "vesicle with friction": Scene(
         "create_membrane 1 sphere 2 2.5\n" + SOLVENT.format(3000), energy=CLOSED, inside=True, kept=(),
         move="fix 1 membrane hd/langevin 1.0 1.0 1.0 4711"),

@@ -1,0 +1,127 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+
+#include "membrane_surface_corners.h"
+
+#include "membrane_inverse_mask.h"
+#include "membrane_limit_basis.h"
+#include "membrane_tessellation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace Membrane_NS;
+
+static constexpr double CUT_OFF = 1.0e-8;
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceCorners::SurfaceCorners(const Topology &topology, int n) :
+    num_masses_(topology.num_vertices())
+{
+  const FaceTessellation cut(n);
+  const TessellationNumbering numbering(topology, n);
+  InverseMask inverse(topology);
+  const int num_corners = numbering.num_points();
+
+  // each corner is worked out on the first face that has it
+
+  std::vector<char> done(num_corners, 0);
+  std::vector<std::vector<Entry>> rows(num_corners);
+  std::map<Valences, std::vector<LimitBasis::Weights>> known;
+  std::vector<double> sum(num_masses_, 0.0);
+  std::vector<int> stencil, touched;
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    const Face &face = topology.face(f);
+    const Valences valences = {topology.valence(face[0]), topology.valence(face[1]),
+                               topology.valence(face[2])};
+    auto [entry, is_new] = known.try_emplace(valences);
+    auto &weights = entry->second;
+    if (is_new) {
+      const LimitBasis basis(valences);
+      weights.resize(cut.num_points());
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i + j <= n; ++i)
+          weights[cut.index(i, j)] = basis.evaluate(double(i) / n, double(j) / n);
+    }
+    topology.stencil(f, stencil);
+
+    std::vector<int> number(cut.num_points());
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i + j <= n; ++i) {
+        const int p = cut.index(i, j), c = number[p] = numbering.number(f, i, j);
+        if (done[c]) continue;
+        done[c] = 1;
+        if (c < num_masses_) {
+          rows[c] = {{c, 1.0}};
+          continue;
+        }
+        touched.clear();
+        for (size_t k = 0; k < stencil.size(); ++k) {
+          const double w = weights[p](LimitBasis::VALUE, k);
+          const auto &row = inverse.row(stencil[k]);
+          for (size_t a = 0; a < row.vertex.size(); ++a) {
+            if (sum[row.vertex[a]] == 0.0) touched.push_back(row.vertex[a]);
+            sum[row.vertex[a]] += w * row.weight[a];
+          }
+        }
+
+        // the smallest go, as long as they are little together; what they leave goes to the largest
+
+        std::sort(touched.begin(), touched.end(), [&sum](int a, int b) {
+          return std::make_pair(-std::fabs(sum[a]), a) < std::make_pair(-std::fabs(sum[b]), b);
+        });
+        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+        size_t keep = touched.size();
+        for (double left = 0.0; keep > 1; --keep) {
+          left += std::fabs(sum[touched[keep - 1]]);
+          if (left > CUT_OFF) break;
+        }
+        double total = 0.0;
+        for (size_t k = 0; k < keep; ++k) {
+          rows[c].emplace_back(touched[k], sum[touched[k]]);
+          total += sum[touched[k]];
+        }
+        rows[c][0].second += 1.0 - total;
+        for (int a : touched) sum[a] = 0.0;
+      }
+    for (const Face &t : cut.triangles())
+      triangles_.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  }
+
+  start_.push_back(0);
+  dependents_start_.assign(num_masses_ + 1, 0);
+  for (const auto &row : rows) {
+    entries_.insert(entries_.end(), row.begin(), row.end());
+    start_.push_back(static_cast<int>(entries_.size()));
+    for (const Entry &e : row) ++dependents_start_[e.first + 1];
+  }
+  for (int a = 0; a < num_masses_; ++a) dependents_start_[a + 1] += dependents_start_[a];
+  dependents_.resize(entries_.size());
+  std::vector<int> next(dependents_start_.begin(), dependents_start_.end() - 1);
+  for (int c = 0; c < num_corners; ++c)
+    for (const Entry &e : rows[c]) dependents_[next[e.first]++] = {c, e.second};
+}
+
+double SurfaceCorners::memory_usage() const
+{
+  return sizeof(Entry) * (entries_.capacity() + dependents_.capacity()) +
+      sizeof(int) * (start_.capacity() + dependents_start_.capacity()) +
+      sizeof(Face) * triangles_.capacity();
+}
