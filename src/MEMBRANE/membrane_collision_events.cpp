@@ -22,6 +22,9 @@
 using namespace Membrane_NS;
 using Eigen::Vector3d;
 
+// barycentric: far more than TriangleCollision::edge_tolerance, and few collisions are so close
+static constexpr double AT_EDGE = 1.0e-4;
+
 /* ---------------------------------------------------------------------- */
 
 void CollisionEvents::begin(const std::vector<SurfaceVertex> &vertices,
@@ -284,8 +287,10 @@ void CollisionEvents::share(int control)
 
 /* ----------------------------------------------------------------------
    On the surface, with velocities of the time of the collision; where the point would not leave the
-   surface for that, as when it grazes, with those of the paths. Seen backwards in time the choice is
-   the same: it depends on whether both the velocity before and that after point the right way.
+   surface for that, as when it grazes, with those of the paths, and also at an edge: to leave one triangle
+   is not to leave the other then, and a velocity that is reversed at both would be so for ever. Seen
+   backwards in time the choice is the same: it depends on where the collision is and on whether both
+   the velocity before and that after point the right way.
 ------------------------------------------------------------------------- */
 
 Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, double now)
@@ -305,7 +310,9 @@ Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, doubl
   for (int a : masses_.who) inverse += masses_.share[a] * masses_.share[a] * inverse_mass(a);
 
   const Vector3d impulse = collision_impulse(later, normal, inverse, no_slip);
-  if (pair.side * (relative + inverse * impulse).dot(normal) > 0.0) return -impulse;
+  if (point.bounces <= settings_.most_bounces && *std::min_element(b.begin(), b.end()) > AT_EDGE &&
+      pair.side * (relative + inverse * impulse).dot(normal) > 0.0)
+    return -impulse;
   return -collision_impulse(relative, normal, inverse, no_slip);
 }
 
