@@ -72,6 +72,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
   if (membrane < 0) return;
   SurfaceObstacle::Settings settings;
   settings.membranes = membrane;
+  settings.seed = seed;
   settings.no_slip = noslip;
   settings.control = control;
   settings.level = level;

@@ -409,13 +409,13 @@ void SurfaceObstacle::join_cells(SRDCells &cells, bigint step, double kT)
   VertexField position;
   motion.masses_now(position, joined);
   MeshPart &part = motion.part();
-  const Membrane_NS::CounterRandom random(SIDE_SEED, step);
+  const Membrane_NS::CounterRandom random(settings.seed ^ SIDE_SEED, step);
   cells.others.clear();
   for (int i = 0; i < part.owned; ++i) {
     const tagint tag = atom->tag[part.atom_of(i)];
     if (!motion.is_free(part.vertices[i])) {
       double v[3];
-      Membrane_NS::thermal_velocity(HELD_SEED, step, tag, kT, motion.mass_of(part.vertices[i]), v);
+      Membrane_NS::thermal_velocity(settings.seed ^ HELD_SEED, step, tag, kT, motion.mass_of(part.vertices[i]), v);
       for (int k = 0; k < 3; ++k) joined[i].c[k] += v[k];
     }
     cells.others.add(position[i].c, joined[i].c, motion.mass_of(part.vertices[i]), tag,

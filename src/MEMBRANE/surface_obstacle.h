@@ -39,6 +39,7 @@ class SurfaceObstacle : protected Pointers {
   struct Settings {
     int membranes = 0;          ///< their group
     int level = 0;              ///< of the surface, see SurfaceMotion
+    uint64_t seed = 0;          ///< of all random numbers
     bool no_slip = false;
     bool control = false;       ///< impulses act on control points
     int most_bounces = 0;       ///< of an atom in one step; 0 for very many

@@ -298,6 +298,41 @@ temperatures = [row["c_T"] for row in thermo(output)[10:]]
 mean = sum(temperatures) / len(temperatures)
 claim("a held sheet without slip keeps the solvent at its temperature", abs(mean - 1) < 0.015, f"{mean:.4f}")
 
+# energy without thermostat: no random walk, and a rise that goes as the square of the timestep
+
+for collision, limit in (("slip", 3e-5), ("noslip", 6e-5)):
+    output = run(f"""
+units           lj
+atom_style      membrane_cp
+region          box block -5 5 -5 5 -5 5
+create_box      2 box angle/types 1
+create_membrane 1 sphere 2 3.5
+set             type 1 mass 5.0
+create_atoms    2 random 10000 8341 box
+set             type 2 mass 1.0
+group           membrane type 1
+group           solvent type 2
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0 area 200.0 init volume 200.0 init
+fix             1 membrane hd/nve
+fix             2 solvent srd/mesh 40 membrane 1.0 1.0 4711 angle 130 shift yes 9127 collision {collision}
+compute         T membrane hd/temp
+compute         ks solvent ke
+variable        e equal pe+ke+c_ks
+thermo_style    custom step temp pe ke v_e f_2[2]
+thermo_modify   norm no temp T format float %.15g
+timestep        0.0025
+run             1000
+thermo          200
+run             6000
+""")
+    rows = [row for row in thermo(output) if row["Step"] > 1000]
+    energy, hits = ([row[key] for row in rows] for key in ("v_e", "f_2[2]"))
+    rise = (energy[-1] - energy[0]) / (hits[-1] - hits[0])
+    off = max(abs(e - energy[0] - rise * (h - hits[0])) for e, h in zip(energy, hits))
+    claim(f"collision {collision}: energy rises by less than {limit} kT a collision, in a straight line",
+          abs(rise) < limit and off < 0.15, f"{rise:.1e} in {hits[-1] - hits[0]:.0f} collisions, off the line by {off:.3f} kT")
+
 for name in ("the same, no slip", "sheet, no slip"):
     scene = SCENES[name]
     for ranks in (1, 2):
