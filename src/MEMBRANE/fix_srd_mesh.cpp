@@ -54,7 +54,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
     cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
     set_velocities(true), ghosts(false), level(0), bounces(0), search(0.0),
-    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), membranes_join(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
+    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), running(false), membranes_join(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     clear_forces(false), values{}, carried{}, sampled(-1)
 {
@@ -238,6 +238,7 @@ void FixSRDMesh::init()
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix srd/mesh does not work with run_style respa");
+  running = false;
   solvent.refresh();
   check_group();
   find_forces();
@@ -427,7 +428,10 @@ void FixSRDMesh::setup(int)
   sampled = -1;
   have_obstacle = obstacle && group->count(membrane) > 0;
   membranes_join = have_obstacle && noslip;
-  if (have_obstacle) obstacle->setup(solvent);
+  running = true;
+  if (!have_obstacle) return;
+  obstacle->forces_on_solvent = have_forces;
+  obstacle->setup(solvent);
 }
 
 /* ----------------------------------------------------------------------
@@ -479,7 +483,7 @@ void FixSRDMesh::final_integrate()
 
 void FixSRDMesh::post_run()
 {
-  if (have_obstacle) check_sides();
+  if (have_obstacle && running) check_sides();
 }
 
 void FixSRDMesh::kick()
@@ -590,7 +594,7 @@ void FixSRDMesh::sample()
 {
   sampled = update->ntimestep;
   solvent.refresh();
-  if (have_obstacle) check_sides();
+  if (have_obstacle && running) check_sides();
   const double unit = force->mvv2e / force->boltz;
   const auto thermal = cells->measure(solvent, sides());
   auto temperature_of = [unit](const Membrane_NS::CellEnergy &e) {
@@ -627,7 +631,7 @@ void FixSRDMesh::sample_obstacle()
 {
   values[INSIDE] = 0.0;
   values[OUTSIDE] = static_cast<double>(num_solvent);
-  if (!have_obstacle) return;
+  if (!obstacle) return;
   constexpr int N = SurfaceObstacle::NUM_TALLIES;
   double sum[N];
   MPI_Allreduce(obstacle->tally, sum, N, MPI_DOUBLE, MPI_SUM, world);
@@ -637,6 +641,7 @@ void FixSRDMesh::sample_obstacle()
   std::copy_n(sum + SurfaceObstacle::HANDED, 3, values + HANDED);
   values[NORMAL_IMPULSE] = sum[SurfaceObstacle::INNER] - sum[SurfaceObstacle::OUTER];
 
+  if (!have_obstacle) return;
   const SurfaceRegions &regions = obstacle->regions;
   bigint mine = 0, all;
   for (int i = solvent.first(); i < solvent.last(); ++i)
@@ -727,5 +732,5 @@ void FixSRDMesh::restart(char *buf)
 
 double FixSRDMesh::memory_usage()
 {
-  return cells ? cells->memory_usage() : 0.0;
+  return (cells ? cells->memory_usage() : 0.0) + (obstacle ? obstacle->memory_usage() : 0.0);
 }

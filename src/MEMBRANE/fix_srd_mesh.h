@@ -33,8 +33,9 @@ FixStyle(srd/mesh,FixSRDMesh);
 namespace LAMMPS_NS {
 
 /** Solvent of stochastic rotation dynamics around membranes. A step: half a kick if other fixes
-    exert forces on the solvent, streaming once integrators have moved the membranes, half a kick, and
-    every N steps a collision in cells. */
+    exert forces on the solvent, streaming once integrators have moved the membranes, half a kick; every N
+    steps a collision in cells, at the end of the step or, if membranes take part in it, halfway through
+    streaming. */
 class FixSRDMesh : public Fix {
  public:
   FixSRDMesh(class LAMMPS *, int, char **);
@@ -85,6 +86,7 @@ class FixSRDMesh : public Fix {
   std::unique_ptr<HDMass> mass;    // of the membranes; none without them
   std::unique_ptr<SurfaceObstacle> obstacle;
   bool have_obstacle;              // there are membranes, and setup() has been there
+  bool running;                    // in a run since setup(), not a minimization
   bool membranes_join;             // their point masses take part in collisions in cells
   std::vector<int> side;           // of a membrane, by owned atom
   GhostFreeGroup aside;

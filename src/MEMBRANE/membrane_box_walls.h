@@ -64,14 +64,14 @@ class BoxWalls {
     }
   }
 
-  /// x and v after `time`.
-  void stream(double *x, double *v, double mass, double time)
+  /// x and v after `time`; whether the particle has met a wall.
+  bool stream(double *x, double *v, double mass, double time)
   {
-    while (true) {
+    for (bool met = false;; met = true) {
       int face;
       const double step = first_hit(x, v, time, face);
       for (int k = 0; k < 3; ++k) x[k] += step * v[k];
-      if (face < 0) return;
+      if (face < 0) return met;
       x[face / 2] = position[face];
       bounce(v, mass, face);
       time -= step;

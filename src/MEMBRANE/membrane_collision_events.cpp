@@ -56,7 +56,7 @@ int CollisionEvents::add_point(const MovingPoint &path, double inverse_mass, int
                                double reach)
 {
   const int pair = static_cast<int>(pairs_.size());
-  points_.push_back({path, path, inverse_mass, reach, tag, pair, pair, 0, 0, -1});
+  points_.push_back({path, path, Vector3d::Zero(), inverse_mass, reach, tag, pair, pair, 0, 0, -1});
   return static_cast<int>(points_.size()) - 1;
 }
 
@@ -299,7 +299,7 @@ Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, doubl
   const auto &b = pair.hit.weight;
   const Vector3d &normal = pair.hit.normal;
   const bool no_slip = settings_.no_slip || point.bounces > settings_.most_bounces;
-  Vector3d relative = point.now.velocity, later = Vector3d::Zero();
+  Vector3d relative = point.now.velocity, later = point.acceleration;
   for (int k = 0; k < 3; ++k) {
     relative -= b[k] * paths_[vertex[k]].velocity;
     later -= b[k] * (*vertices_)[vertex[k]].acceleration;

@@ -116,6 +116,8 @@ class CollisionEvents {
              const BoxWalls &walls = {}, double middle = 0.0);
   /// A point and how far from its start it may be found; returns its index.
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
+  /// By forces on the last point.
+  void accelerate_point(const Eigen::Vector3d &a) { points_.back().acceleration = a; }
   /// A triangle that the last point may meet, and the side it is on.
   void add_pair(int triangle, int side);
 
@@ -156,6 +158,7 @@ class CollisionEvents {
  private:
   struct Point {
     MovingPoint start, now;
+    Eigen::Vector3d acceleration;
     double inverse_mass, reach;
     int64_t tag;
     int first_pair, last_pair;

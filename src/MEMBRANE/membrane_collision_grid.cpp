@@ -52,7 +52,8 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
   inverse_spacing_ = 1.0 / spacing_;
 
   const double pad = settings.skin + settings.reach;
-  find_images(surface, vertices, lattice, periodic, hi, pad);
+  const Vector3d end = lo + spacing_ * Vector3d(size_[0], size_[1], size_[2]);
+  find_images(surface, vertices, lattice, periodic, end, pad);
   begin(surface, vertices, lattice, 0.0, 0.0);
   fill(pad);
   find_distances();
@@ -240,16 +241,18 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found,
   found.clear();
   ++clock_;
   std::array<int, 3> at, from, to, i;
+  double border = INFINITY;    // in cubes, to where nothing is known
   const double beyond = std::max(0.0, reach + most_moves_ - listed_) * inverse_spacing_;
   for (int k = 0; k < 3; ++k) {
     const double s = (x[k] - lo_[k]) * inverse_spacing_;
     if (!(s - beyond >= 0.0 && s + beyond < size_[k])) return false;
     at[k] = static_cast<int>(s);
+    border = std::min({border, s, size_[k] - s});
     from[k] = static_cast<int>(s - beyond);
     to[k] = static_cast<int>(s + beyond);
   }
   const int away = away_[(at[2] * size_[1] + at[1]) * size_[0] + at[0]];
-  gap = listed_ + std::max(0, away - 1) * spacing_;
+  gap = listed_ + std::min(std::max(0.0, away - 1.0), border) * spacing_;
   if (gap > reach + most_moves_ && away > 0) return true;
   const Eigen::Array4d place(x[0], x[1], x[2], 1.0);
   for (i[2] = from[2]; i[2] <= to[2]; ++i[2])

@@ -63,7 +63,7 @@ void SurfaceMotion::init()
   mass.init();
   shared_epoch = -1;
   check_movers();
-  find_faces();
+  find_components();
   find_masses();
 }
 
@@ -104,34 +104,19 @@ void SurfaceMotion::check_movers()
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceMotion::find_faces()
+void SurfaceMotion::find_components()
 {
   const auto &topology = mesh().topology();
-  const int n = topology.num_vertices();
-  std::vector<int> here(topology.num_components(), 0), any(topology.num_components());
+  const int n = topology.num_components();
+  std::vector<int> here(n, 0), any(n);
   for (int i = 0; i < atom->nlocal; ++i) {
     const int v = mesh().vertex(atom->tag[i]);
     if (v >= 0 && atom->mask[i] & groupbit) here[topology.component(v)] = 1;
   }
-  MPI_Allreduce(here.data(), any.data(), topology.num_components(), MPI_INT, MPI_MAX, world);
-
+  MPI_Allreduce(here.data(), any.data(), n, MPI_INT, MPI_MAX, world);
   group_components.clear();
-  for (int c = 0; c < topology.num_components(); ++c)
+  for (int c = 0; c < n; ++c)
     if (any[c]) group_components.push_back(c);
-  finer.reset();
-  if (level > 0) finer = std::make_unique<SurfaceCorners>(topology, 1 << level);
-  const auto &triangles = finer ? finer->triangles() : topology.faces();
-  const int parts = 1 << (2 * level);
-  faces = {};
-  face_component.clear();
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    const int c = topology.component(topology.face(t / parts)[0]);
-    if (!any[c]) continue;
-    faces.faces.push_back(triangles[t]);
-    face_component.push_back(c);
-  }
-  vertices.assign(finer ? finer->count() : n, {{Vector3d::Zero(), Vector3d::Zero()}});
-  owner_of.assign(n, -1);
 }
 
 /* ----------------------------------------------------------------------
@@ -155,7 +140,7 @@ void SurfaceMotion::find_masses()
   inverse_masses.resize(n);
   for (int v = 0; v < n; ++v) {
     const bool free = sum[n + v] > 0.0;
-    vertices[v].inverse_mass = inverse_masses[v] = free ? 1.0 / masses[v] : 0.0;
+    inverse_masses[v] = free ? 1.0 / masses[v] : 0.0;
     any_fixed = any_fixed || (masses[v] > 0.0 && !free);
   }
 }
@@ -189,90 +174,95 @@ void SurfaceMotion::setup()
   MPI_Allreduce(here.data(), sum.data(), 3 * n, MPI_INT, MPI_SUM, world);
   offset.resize(n);
   ring_seam.assign(n, {0, 0, 0});
+  SurfaceCorners::Seams seams(n);
+  bool passes = false;
   for (int v = 0; v < n; ++v) {
     std::copy_n(&sum[3 * v], 3, offset[v].begin());
     for (int u : topology.ring(v)) {
       const auto d = in_lattice(whole.points[v] + whole.edge(v, u) - whole.points[u]);
-      for (int k = 0; k < 3; ++k) ring_seam[v][k] += d[k];
+      seams[v].push_back(d);
+      for (int k = 0; k < 3; ++k) {
+        ring_seam[v][k] += d[k];
+        passes = passes || d[k] != 0;
+      }
     }
   }
-
-  double length = 0.0;
-  for (const auto &face : topology.faces())
-    for (int k = 0; k < 3; ++k) length += whole.edge(face[k], face[(k + 1) % 3]).norm();
-  mean_edge = length / std::max(1, 3 * topology.num_faces());
-  find_seams(whole);
+  if (!passes) seams.clear();
+  if (level > 0 && (!finer || finer_faces != topology.faces() || finer_seams != seams)) {
+    finer = std::make_unique<SurfaceCorners>(topology, 1 << level, seams);
+    finer_faces = topology.faces();
+    finer_seams = seams;
+  }
+  make_surface(whole);
+  owner_of.assign(n, -1);
   shared_epoch = -1;
   remember();
 }
 
 /* ----------------------------------------------------------------------
-   Box vectors between the places of a triangle's corners, and between a corner of a finer surface and the
-   mean of its masses. Where each face has its corners together, as its control points are, and where
-   corners and masses are that each have one place.
+   The triangles, and the box vectors between the places of their corners. Each face has its corners
+   together, as its control points are, while corners and masses each have one place.
 ------------------------------------------------------------------------- */
 
-void SurfaceMotion::find_seams(const TriangleMesh &whole)
+void SurfaceMotion::make_surface(const TriangleMesh &whole)
 {
   const auto &topology = mesh().topology();
+  const int n = topology.num_vertices();
   const Matrix3d to_fraction = lattice().inverse();
-  Membrane_NS::FaceTessellation cut(1 << level);
-  Membrane_NS::StencilPoints stencil;
-  std::vector<Membrane_NS::LimitPoint> points;
+  faces = {};
+  face_component.clear();
+  vertices.assign(finer ? finer->count() : n, {{Vector3d::Zero(), Vector3d::Zero()}});
+  for (int v = 0; v < n; ++v) vertices[v].inverse_mass = inverse_masses[v];
+
+  // a mass has its place with its control point, as in load_positions()
+
   std::vector<Vector3d> place(vertices.size());
   std::vector<char> placed(vertices.size(), 0);
-
-  // a mass is placed with its control point, as load_positions() does it
-
-  const int n = topology.num_vertices();
   for (int v = 0; v < n; ++v) {
-    const double centre = Membrane_NS::limit_mask_centre(topology.valence(v));
+    const double spokes = 1.0 - Membrane_NS::limit_mask_centre(topology.valence(v));
     place[v] = whole.points[v];
-    for (int u : topology.ring(v))
-      place[v] += (1.0 - centre) / topology.valence(v) * whole.edge(v, u);
+    for (int u : topology.ring(v)) place[v] += spokes / topology.valence(v) * whole.edge(v, u);
     placed[v] = 1;
   }
 
   std::vector<char> in_group(topology.num_components(), 0);
   for (int c : group_components) in_group[c] = 1;
-  faces.seams.clear();
-  size_t t = 0;
+  Membrane_NS::FaceTessellation cut(1 << level);
+  Membrane_NS::StencilPoints stencil;
+  std::vector<Membrane_NS::LimitPoint> points;
+  double length = 0.0;
+  int num_edges = 0;
   for (int f = 0; f < topology.num_faces(); ++f) {
     const auto &face = topology.face(f);
-    if (!in_group[topology.component(face[0])]) continue;
+    const int c = topology.component(face[0]);
+    if (!in_group[c]) continue;
+    for (int k = 0; k < 3; ++k) length += whole.edge(face[k], face[(k + 1) % 3]).norm();
+    num_edges += 3;
     Membrane_NS::stencil_points(topology, whole, f, stencil);
     cut.evaluate({topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])},
                  stencil, points);
-    for (const auto &corners : cut.triangles()) {
-      const auto &triangle = faces.faces[t++];
+    for (size_t t = 0; t < cut.triangles().size(); ++t) {
+      const auto &corners = cut.triangles()[t];
+      const auto &triangle =
+          finer ? finer->triangles()[f * cut.triangles().size() + t] : topology.face(f);
       std::array<Vector3d, 3> images;
       for (int k = 0; k < 3; ++k) {
         const int corner = triangle[k];
-        if (!placed[corner]) place[corner] = points[corners[k]].position;
+        const Vector3d &here = points[corners[k]].position;
+        if (!placed[corner]) place[corner] = here;
         placed[corner] = 1;
-        images[k] = to_fraction * (points[corners[k]].position - place[corner]);
+        images[k] = to_fraction * (here - place[corner]);
       }
       std::array<std::array<int, 3>, 3> seam;
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 3; ++i)
           seam[k][i] = static_cast<int>(std::lround(images[k][i] - images[0][i]));
+      faces.faces.push_back(triangle);
       faces.seams.push_back(seam);
+      face_component.push_back(c);
     }
   }
-
-  seam_shift.assign(vertices.size(), Vector3d::Zero());
-  if (!finer) return;
-  const auto continues = Membrane_NS::continuing_directions(topology, whole);
-  for (size_t v = n; v < vertices.size(); ++v) {
-    if (!placed[v]) continue;
-    const auto masses = finer->masses_of(v);
-    Vector3d mean = Vector3d::Zero();
-    for (const auto &[a, g] : masses) mean += g * place[a];
-    const Vector3d shift = to_fraction * (place[v] - mean);
-    const auto &here = continues[topology.component(masses.begin()->first)];
-    for (int k = 0; k < 3; ++k)
-      if (here[k]) seam_shift[v][k] = shift[k];
-  }
+  mean_edge = length / std::max(1, num_edges);
 }
 
 Matrix3d SurfaceMotion::lattice() const
@@ -409,10 +399,11 @@ void SurfaceMotion::begin_step(double dt)
 {
   refresh();
   load_displacements();
+  for (int i = 0; i < part().owned; ++i)
+    for (int k = 0; k < 3; ++k) moved[i].c[k] /= dt;
+  drift = moved;
   velocity.resize(part().size());
   matrix().apply_mask(moved, velocity);
-  for (int i = 0; i < part().owned; ++i)
-    for (int k = 0; k < 3; ++k) velocity[i].c[k] /= dt;
   load_accelerations();
   acceleration.resize(part().size());
   matrix().apply_mask(moved, acceleration);
@@ -461,7 +452,7 @@ void SurfaceMotion::place_corners()
   const Matrix3d box = lattice();
   for (size_t v = finer->num_masses(); v < vertices.size(); ++v) {
     SurfaceVertex corner;
-    corner.path = {box * seam_shift[v], Vector3d::Zero()};
+    corner.path = {box * finer->shift(v), Vector3d::Zero()};
     for (const auto &[a, g] : finer->masses_of(v)) {
       const SurfaceVertex &one = vertices[a];
       corner.path.origin += g * one.path.origin;
@@ -482,6 +473,8 @@ void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
       for (int k = 0; k < 3; ++k) position[i].c[k] -= ahead * velocity[i].c[k];
   part().load(atom->v, moved);
   velocity_now.resize(part().size());
+  for (int i = 0; i < part().owned; ++i)    // whatever velocities the atoms have that nothing moves
+    if (!is_free(part().vertices[i])) moved[i] = drift[i];
   matrix().apply_mask(moved, velocity_now);
 }
 
@@ -541,6 +534,6 @@ double SurfaceMotion::memory_usage() const
       (finer ? finer->memory_usage() : 0.0) +
       faces.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int)) +
       sizeof(Vector4) *
-      (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity() +
+      (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity() + drift.capacity() +
        acceleration.capacity());
 }

@@ -107,7 +107,8 @@ class SurfaceMotion : protected Pointers {
   int igroup, groupbit, level;
   HDMass mass;
   std::unique_ptr<Membrane_NS::SurfaceCorners> finer;
-  std::vector<Eigen::Vector3d> seam_shift;    // from masses' mean to corner, in box vectors
+  std::vector<Membrane_NS::Face> finer_faces;    // what it was made for
+  Membrane_NS::SurfaceCorners::Seams finer_seams;
   std::vector<class FixHDBase *> integrators;
   Membrane_NS::SurfaceFaces faces;
   std::vector<int> face_component, group_components;
@@ -125,19 +126,20 @@ class SurfaceMotion : protected Pointers {
   std::vector<int> counts, starts, listed;    // all ranks' owned vertices
   std::vector<double> mine, all;
   double whole, ahead;                      // the step, and time left of it
-  Membrane_NS::VertexField velocity;        // of owned vertices for the rest of it
+  Membrane_NS::VertexField drift;           // velocities of owned control points in it
+  Membrane_NS::VertexField velocity;        // of owned masses for the rest of it
   Membrane_NS::VertexField acceleration;
   Membrane_NS::VertexField q, moved, r;
 
   void check_movers();
-  void find_faces();
+  void find_components();
   void find_masses();
   void refresh();
   void load_positions();
   void load_displacements();
   void load_accelerations();
   void share(int width);
-  void find_seams(const Membrane_NS::TriangleMesh &whole);
+  void make_surface(const Membrane_NS::TriangleMesh &whole);
   void place_corners();
   void change_velocities();
 };

@@ -22,6 +22,7 @@
 #include "distributed_mesh.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "membrane_random.h"
 #include "memory.h"
 #include "update.h"
@@ -224,6 +225,7 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
   const bool dense = solvent.dense(), have_walls = walls.any();
   if (have_walls) vertex_slack = most_slack();
   near.clear();
+  passed.clear();
   grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
   if (solvent.count() == 0) return true;
@@ -231,26 +233,30 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
   double *x = atom->x[0];
   const double *v = atom->v[0];
   bool all_found = true;
-  const double surface_comes = travelled + dt * fastest + vertex_slack;
+  const double surface_comes = travelled + dt * fastest + vertex_slack,
+               at_most = travelled + dt * fastest + most_slack();
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!dense && !solvent.has(i)) continue;
     double *xi = x + 3 * (size_t) i;
     const double *vi = v + 3 * (size_t) i;
     const double speed = std::sqrt(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2]);
     clearance[i] -= dt * speed;
-    if (!(clearance[i] > surface_comes)) {
+    if (!(clearance[i] > at_most)) {
       const Near here = {i, {Vector3d::Map(xi), Vector3d::Map(vi)}, speed};
-      const bool inside = look(here, solvent, dt);
-      all_found = all_found && inside;
-      if (!inside || !found.empty()) {
-        near.push_back(here);
-        continue;
+      if (!(clearance[i] > surface_comes)) {
+        const bool inside = look(here, solvent, dt);
+        all_found = all_found && inside;
+        if (!inside || !found.empty()) {
+          near.push_back(here);
+          continue;
+        }
       }
+      if (clearance[i] <= at_most) passed.push_back({i, here.path.origin});
     }
-    if (have_walls)
-      walls.stream(xi, atom->v[i], solvent.mass()[i], dt);
-    else
+    if (!have_walls)
       for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
+    else if (walls.stream(xi, atom->v[i], solvent.mass()[i], dt))
+      forget(i);    // walls that move make it faster
   }
   return all_found;
 }
@@ -268,6 +274,8 @@ bool SurfaceObstacle::look(const Near &near, const SRDSolvent &solvent, double d
   clearance[i] = travelled + gap - dt * near.speed;
   if (found.empty()) return true;
   events.add_point(near.path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
+  if (forces_on_solvent)
+    events.accelerate_point(force->ftm2v / solvent.mass()[i] * Vector3d::Map(atom->f[i]));
   for (int t : found) {
     const auto &image = grid.images()[t];
     events.add_pair(t, regions.side(regions.region[i], atom->image[i],
@@ -286,7 +294,9 @@ void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &wall
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
   for (const Near &n : near) {
     if (!look(n, solvent, dt))
-      error->one(FLERR, "{}: solvent moves further than {:.6g} in one step: use a shorter timestep",
+      error->one(FLERR,
+                 "{}: solvent moves further than {:.6g} in one step, or has left the box: use a shorter "
+                 "timestep",
                  settings.user, settings.stray);
     if (found.empty())
       events.add_point(n.path, 1.0 / solvent.mass()[n.atom], atom->tag[n.atom], INFINITY);
@@ -297,17 +307,19 @@ void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &wall
    vertices are deflected further than foreseen: what moved already may meet them after all
 ------------------------------------------------------------------------- */
 
-void SurfaceObstacle::take_back(const SRDSolvent &solvent, double dt)
+void SurfaceObstacle::take_back(double dt)
 {
-  std::vector<char> noted(atom->nlocal, 0);
-  for (const Near &n : near) noted[n.atom] = 1;
   const double surface_comes = travelled + dt * fastest + vertex_slack;
-  for (int i = solvent.first(); i < solvent.last(); ++i) {
-    if (noted[i] || !solvent.has(i) || clearance[i] > surface_comes) continue;
-    const Vector3d v = Vector3d::Map(atom->v[i]);
-    Vector3d::Map(atom->x[i]) -= dt * v;
-    near.push_back({i, {Vector3d::Map(atom->x[i]), v}, v.norm()});
+  size_t kept = 0;
+  for (const Passed &p : passed) {
+    if (clearance[p.atom] > surface_comes) {
+      passed[kept++] = p;
+      continue;
+    }
+    const Vector3d v = Vector3d::Map(atom->v[p.atom]);
+    near.push_back({p.atom, {p.from, v}, v.norm()});
   }
+  passed.resize(kept);
 }
 
 double SurfaceObstacle::most_slack() const
@@ -328,7 +340,7 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
       point_slack *= 2.0;
     else if (vertex_slack < most_slack()) {
       vertex_slack = std::min(2.0 * vertex_slack, most_slack());
-      take_back(solvent, dt);
+      take_back(dt);
     } else
       error->one(FLERR,
                  "{}: solvent deflects the surface by more than {} of an edge in one step: use a "

@@ -52,6 +52,7 @@ class SurfaceObstacle : protected Pointers {
 
   SurfaceMotion motion;
   SurfaceRegions regions;
+  bool forces_on_solvent = false;    ///< and atom->f has them
 
   // === Life cycle; all collective
 
@@ -102,6 +103,11 @@ class SurfaceObstacle : protected Pointers {
     double speed;
   };
   std::vector<Near> near;
+  struct Passed {              // one that may if vertices are deflected further
+    int atom;
+    Eigen::Vector3d from;
+  };
+  std::vector<Passed> passed;
   std::vector<int> found;
   double vertex_slack, point_slack;
 
@@ -123,7 +129,7 @@ class SurfaceObstacle : protected Pointers {
   bool move_or_note(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
   bool look(const Near &, const SRDSolvent &, double dt);
   void look_again(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
-  void take_back(const SRDSolvent &, double dt);
+  void take_back(double dt);
   double most_slack() const;
   void run(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
   bool exchange();
