@@ -148,6 +148,7 @@ void CollisionEvents::foresee(int p, double now)
   for (int k = 0; k < 3; ++k) {
     corners[k] = paths_[triangle.vertex[k]];
     corners[k].origin += triangle.shift[k];
+    corners[k].velocity += triangle.drift[k];
   }
   pair.hits = collision_.find(point.now, corners, pair.side, now, duration_, point.touching == p,
                               pair.hit);
@@ -210,7 +211,8 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
 
   double approach = point.now.velocity.dot(pair.hit.normal);
   for (int k = 0; k < 3; ++k)
-    approach -= b[k] * paths_[triangle.vertex[k]].velocity.dot(pair.hit.normal);
+    approach -=
+        b[k] * (paths_[triangle.vertex[k]].velocity + triangle.drift[k]).dot(pair.hit.normal);
 
   point.touching = first;
   ++point.bounces;
@@ -295,13 +297,14 @@ void CollisionEvents::share(int control)
 
 Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, double now)
 {
-  const auto &vertex = (*triangles_)[pair.triangle].vertex;
+  const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
+  const auto &vertex = triangle.vertex;
   const auto &b = pair.hit.weight;
   const Vector3d &normal = pair.hit.normal;
   const bool no_slip = settings_.no_slip || point.bounces > settings_.most_bounces;
   Vector3d relative = point.now.velocity, later = point.acceleration;
   for (int k = 0; k < 3; ++k) {
-    relative -= b[k] * paths_[vertex[k]].velocity;
+    relative -= b[k] * (paths_[vertex[k]].velocity + triangle.drift[k]);
     later -= b[k] * (*vertices_)[vertex[k]].acceleration;
   }
   later = relative + (now - middle_) * later;

@@ -35,7 +35,8 @@ struct SurfaceVertex {
 /// A triangle of the surface, in the periodic image where a point may meet it.
 struct SurfaceTriangle {
   std::array<int, 3> vertex;
-  std::array<Eigen::Vector3d, 3> shift;    ///< from the vertices to the corners
+  std::array<Eigen::Vector3d, 3> shift;    ///< from the vertices to the corners, at the start
+  std::array<Eigen::Vector3d, 3> drift;    ///< velocity of that: images in a box that deforms
 };
 
 /// An impulse that the surface received.

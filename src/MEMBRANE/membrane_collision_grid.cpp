@@ -201,7 +201,8 @@ bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matri
 }
 
 void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
-                        const Matrix3d &lattice, double duration, double slack)
+                        const Matrix3d &lattice, double duration, double slack,
+                        const Matrix3d &rate)
 {
   triangles_.resize(images_.size());
   planes_.resize(images_.size());
@@ -217,9 +218,11 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
       if (!surface.seams.empty())
         for (int j = 0; j < 3; ++j) n[j] += surface.seams[image.face][k][j];
       const int v = triangle.vertex[k] = surface.faces[image.face][k];
-      triangle.shift[k] = lattice * Vector3d(n[0], n[1], n[2]);
+      const Vector3d images(n[0], n[1], n[2]);
+      triangle.shift[k] = lattice * images;
+      triangle.drift[k] = rate * images;
       x[k] = vertices[v].path.origin + triangle.shift[k];
-      fastest = std::max(fastest, vertices[v].path.velocity.squaredNorm());
+      fastest = std::max(fastest, (vertices[v].path.velocity + triangle.drift[k]).squaredNorm());
     }
     Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
     const double size = normal.norm();

@@ -59,9 +59,11 @@ class SurfaceGrid {
   /// Whether vertices are, at the start of a step, where the grid can find them.
   bool serves(const std::vector<SurfaceVertex> &vertices, const Eigen::Matrix3d &lattice);
 
-  /// Work out what the triangles do in this step; vertices may be deflected by up to `slack`.
+  /// Work out what the triangles do in this step; vertices may be deflected by up to `slack`. rate: at
+  /// which the lattice changes.
   void begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
-             const Eigen::Matrix3d &lattice, double duration, double slack);
+             const Eigen::Matrix3d &lattice, double duration, double slack,
+             const Eigen::Matrix3d &rate = Eigen::Matrix3d::Zero());
   const std::vector<SurfaceTriangle> &triangles() const { return triangles_; }
   const std::vector<Image> &images() const { return images_; }
 

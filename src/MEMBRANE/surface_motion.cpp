@@ -273,6 +273,38 @@ Matrix3d SurfaceMotion::lattice() const
   return columns;
 }
 
+Matrix3d SurfaceMotion::lattice_rate() const
+{
+  Matrix3d columns = Matrix3d::Zero();
+  if (!domain->deform_vremap) return columns;
+  const double *h = domain->h_rate;
+  columns << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+  return columns;
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS changes velocities of atoms that pass through the boundary then: those of one membrane would be
+   in two frames, and neither masses nor places of control points would fit together
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::check_frames()
+{
+  const Matrix3d rate = lattice_rate();
+  for (int i = 0; i < part().owned; ++i) {
+    const int v = part().vertices[i], j = part().atom_of(i);
+    const imageint image = atom->image[j];
+    const std::array<int, 3> n = {(int) (image & IMGMASK) - IMGMAX + offset[v][0],
+                                  (int) (image >> IMGBITS & IMGMASK) - IMGMAX + offset[v][1],
+                                  (int) (image >> IMG2BITS) - IMGMAX + offset[v][2]};
+    for (int k = 0; k < 3; ++k)
+      if (rate.col(k).squaredNorm() > 0.0 && (n[k] != 0 || ring_seam[v][k] != 0))
+        error->one(FLERR,
+                   "{}: the membrane of atom {} passes through the boundary of the box in {}, where fix "
+                   "deform with remap v gives atoms other velocities: keep it inside, or use remap x",
+                   user, atom->tag[j], "xyz"[k]);
+  }
+}
+
 std::array<bool, 3> SurfaceMotion::periodic() const
 {
   return {domain->periodicity[0] != 0, domain->periodicity[1] != 0, domain->periodicity[2] != 0};
@@ -398,6 +430,7 @@ void SurfaceMotion::share(int width)
 void SurfaceMotion::begin_step(double dt)
 {
   refresh();
+  if (domain->deform_vremap) check_frames();
   load_displacements();
   for (int i = 0; i < part().owned; ++i)
     for (int k = 0; k < 3; ++k) moved[i].c[k] /= dt;

@@ -64,8 +64,10 @@ class SurfaceMotion : protected Pointers {
   double edge() const { return mean_edge; }
   /// And of the surface.
   double surface_edge() const { return mean_edge / (1 << level); }
-  /// The box vectors as columns.
+  /// The box vectors as columns, and the rate at which they change for images, which in a box whose
+  /// deformation does not move atoms along have other velocities.
   Eigen::Matrix3d lattice() const;
+  Eigen::Matrix3d lattice_rate() const;
   std::array<bool, 3> periodic() const;
 
   // === A step
@@ -74,6 +76,8 @@ class SurfaceMotion : protected Pointers {
       which this goes back to the start; pass() goes on from there. */
   void begin_step(double dt);
   void pass(double duration) { ahead -= duration; }
+  /// The box vectors now, in the course of the step.
+  Eigen::Matrix3d lattice_now() const { return lattice() + (whole - ahead) * lattice_rate(); }
   /// When from now the middle of the step is.
   double middle() const { return ahead - 0.5 * whole; }
   /// Collective: paths of all vertices from now on, and accelerations.
@@ -141,6 +145,7 @@ class SurfaceMotion : protected Pointers {
   void share(int width);
   void make_surface(const Membrane_NS::TriangleMesh &whole);
   void place_corners();
+  void check_frames();
   void change_velocities();
 };
 

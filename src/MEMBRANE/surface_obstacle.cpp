@@ -146,10 +146,10 @@ void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double 
 void SurfaceObstacle::follow_surface()
 {
   double most = 0.0, fastest_squared = 0.0;
-  const bool begins = origins.size() != vertices->size() || lattice != motion.lattice();
+  const bool begins = origins.size() != vertices->size() || lattice != motion.lattice_now();
   if (begins) {
     std::fill_n(clearance, atom->nlocal, -1.0);
-    lattice = motion.lattice();
+    lattice = motion.lattice_now();
     origins.assign(vertices->size(), Vector3d::Zero());
     travelled = 0.0;
   }
@@ -167,7 +167,7 @@ void SurfaceObstacle::follow_surface()
 
 void SurfaceObstacle::prepare_grid(const SRDSolvent &solvent, double dt)
 {
-  if (!grid.serves(*vertices, motion.lattice()) ||
+  if (!grid.serves(*vertices, motion.lattice_now()) ||
       (comm->nprocs > 1 && built_epoch != motion.epoch()))
     build_grid(solvent, dt);
 }
@@ -194,7 +194,7 @@ void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
   s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
-  grid.build(motion.surface(), *vertices, motion.lattice(), motion.periodic(), lo - margin,
+  grid.build(motion.surface(), *vertices, motion.lattice_now(), motion.periodic(), lo - margin,
              hi + margin, s);
   built_epoch = motion.epoch();
   if (comm->nprocs > 1 && !everywhere) find_shared();
@@ -226,7 +226,8 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
   if (have_walls) vertex_slack = most_slack();
   near.clear();
   passed.clear();
-  grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
+  grid.begin(motion.surface(), *vertices, motion.lattice_now(), dt, vertex_slack,
+             motion.lattice_rate());
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
   if (solvent.count() == 0) return true;
 
@@ -290,7 +291,8 @@ bool SurfaceObstacle::look(const Near &near, const SRDSolvent &solvent, double d
 
 void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
 {
-  grid.begin(motion.surface(), *vertices, motion.lattice(), dt, vertex_slack);
+  grid.begin(motion.surface(), *vertices, motion.lattice_now(), dt, vertex_slack,
+             motion.lattice_rate());
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
   for (const Near &n : near) {
     if (!look(n, solvent, dt))

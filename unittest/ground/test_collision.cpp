@@ -523,7 +523,9 @@ TEST(CollisionEvents, ImpulsesFromOutsideActAtTheirTime)
   const Vector3d corner[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (int k = 0; k < 3; ++k) vertices[k] = {{corner[k], Vector3d::Zero()}, 1.0};
   const std::vector<SurfaceTriangle> triangles = {
-      {{0, 1, 2}, {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}}};
+      {{0, 1, 2},
+       {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()},
+       {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}}};
   CollisionEvents events;
   events.begin(vertices, triangles, 1.0, 10.0);
   events.add_point({{0.3, 0.3, 0.1}, Vector3d::Zero()}, 1.0, 1, 10.0);
@@ -757,7 +759,9 @@ TEST(CollisionEvents, ImpulseOnAControlPointIsEquation44)
       vertices.push_back({{x, random.normal(0.05)}, 1.0 / random.uniform(2.0, 4.0)});
     std::vector<SurfaceTriangle> triangles;
     for (const Face &f : mesh.faces)
-      triangles.push_back({f, {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}});
+      triangles.push_back({f,
+                           {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()},
+                           {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}});
     CollisionEvents::Settings settings;
     settings.control = &inverse;
     CollisionEvents events(settings);
