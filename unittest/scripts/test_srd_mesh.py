@@ -346,6 +346,67 @@ for name in ("the same, no slip", "sheet, no slip"):
         same = all(abs(rows[-1][f"f_2[{i}]"] - straight[-1][f"f_2[{i}]"]) < 1e-9 for i in (2, 3, 4, 8, 9))
         claim(f"{name}, {ranks} rank(s): a run continues from a restart file", worst < 1e-10 and same, f"{worst:.1e}")
 
+# === Membranes near the boundary, of the box and of a sub-domain, in solvent with a long free path
+
+NEAR = """
+units           lj
+atom_style      membrane_cp
+{before}
+region          box {box}
+create_box      2 box angle/types 1
+{create}
+set             type 2 mass 1.0
+group           membrane type 1
+group           solvent type 2
+pair_style      helfrich
+pair_coeff      1 1 100.0 0.0
+{move}
+fix             2 solvent srd/mesh {every} membrane 1.0 1.0 4711 angle 130 shift yes 9127 {args}
+compute         T solvent temp
+compute_modify  T dynamic/dof yes
+thermo_style    custom step f_2[2] f_2[3] c_T
+thermo          100
+timestep        0.01
+run             {steps}
+"""
+SHEET = "create_membrane 1 plane 8 8 center 0 0 {} mass 8.75\ncreate_atoms 2 random 8000 8341 box"
+SLAB = "block 0 8 0 7 0 20"
+
+
+def near(what, create, box=SLAB, move="", args="collision slip", every=100, steps=600, before="", ranks=1):
+    last = thermo(run(NEAR.format(create=create, box=box, move=move, args=args, every=every, steps=steps,
+                                  before=before), ranks=ranks))[-1]
+    claim(f"{what}: no crossing", last["f_2[3]"] == 0 and last["f_2[2]"] > 100, f"{last['f_2[2]']:.0f} collisions")
+    return last
+
+
+near("a sheet three edges from the boundary", SHEET.format(-6.7))
+near("the same, cubes of 3", SHEET.format(-6.7), args="collision slip search 3")
+near("a sheet that moves into another sub-domain", SHEET.format(4), move="fix 1 membrane move linear 0 0 -2",
+     steps=400, before="processors 1 1 *", ranks=2)
+VESICLE = "create_membrane 1 sphere 2 2.5 center 3.5 0 {} mass 8.75\ncreate_atoms 2 random 5000 8341 box"
+SHEARED = dict(box="prism 0 8 0 8 0 8 0 0 0", before="comm_modify vel yes", move="fix 3 solvent deform 1 xz erate 0.2 remap v",
+               args="tstat yes collision noslip", every=5)
+for ranks in (1, 2):
+    near(f"a vesicle near the boundary of a box that shears, {ranks} rank(s)", VESICLE.format(2.6), ranks=ranks, **SHEARED)
+said = error_of(NEAR.format(create=VESICLE.format(0), steps=10, **SHEARED))
+claim("a membrane through that boundary: an error with the cure", "remap x" in said, said)
+last = near("a held vesicle whose points have velocities", VESICLE.format(0) + "\nvelocity all set 5 0 0",
+            box="block 0 8 0 8 0 8", args="collision noslip", every=5, steps=300)
+claim("    does not stir the solvent", abs(last["c_T"] - 1) < 0.05, last["c_T"])
+
+# a minimization moves the membrane past solvent that stays; the next run takes sides anew
+
+output = run(SCENE.format(**{**SCENES["the same, no slip"].values, "energy": "20.0 0.0"}) + """
+run             50
+min_style       membrane
+minimize        1e-6 0 50 200
+run             50
+""")
+rows = thermo(output)
+claim("a minimization after a run leaves the counters alone, and a run after it loses nothing",
+      rows[-1]["f_2[3]"] == 0 and rows[-1]["f_2[2]"] > 100 and rows[-1]["f_2[8]"] > 0, f"{rows[-1]['f_2[2]']:.0f} collisions")
+
 # === Bad input
 
 BASE = Scene("create_membrane 1 sphere 2 2.5\n" + SOLVENT.format(3000), energy=CLOSED)
