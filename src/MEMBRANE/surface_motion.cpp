@@ -189,6 +189,10 @@ void SurfaceMotion::setup()
   }
   if (!passes) seams.clear();
   if (level > 0 && (!finer || finer_faces != topology.faces() || finer_seams != seams)) {
+    finer.reset();
+    if (comm->me == 0)
+      utils::logmesg(lmp, "{}: cutting {} faces into {} triangles each\n", user,
+                     topology.num_faces(), 1 << (2 * level));
     finer = std::make_unique<SurfaceCorners>(topology, 1 << level, seams);
     finer_faces = topology.faces();
     finer_seams = seams;
