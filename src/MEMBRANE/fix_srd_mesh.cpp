@@ -250,6 +250,7 @@ void FixSRDMesh::init()
     if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
       mass->settings = integrator->mass_settings();
     if (group->count(membrane) > 0) {
+      check_other_solvents();
       mass->init();
       obstacle->init();
       keep_meshes_in_shape();
@@ -316,6 +317,28 @@ void FixSRDMesh::check_group()
           "Fix srd/mesh moves its solvent itself, and fix {} ({}) moves some of it, too: use "
           "groups without common atoms",
           other->id, other->style);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   two fixes would each take the other's impulses for motion of the membrane without solvent
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::check_other_solvents()
+{
+  for (auto &fix : modify->get_fix_by_style("^srd/mesh$")) {
+    auto *other = dynamic_cast<FixSRDMesh *>(fix);
+    if (!other || other == this || other->membrane < 0) continue;
+    int mine = 0, any;
+    const int both = group->bitmask[membrane] | group->bitmask[other->membrane];
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & both) == both) mine = 1;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+    if (any)
+      error->all(FLERR,
+                 "Fix srd/mesh: membranes of group {} are also those of fix {}: one fix must have all "
+                 "solvent around a membrane",
+                 group->names[membrane], other->id);
   }
 }
 

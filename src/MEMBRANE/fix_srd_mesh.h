@@ -109,6 +109,7 @@ class FixSRDMesh : public Fix {
   void parse(int, char **);
   void parse_wall_velocity(char **);
   void check_group();
+  void check_other_solvents();
   void keep_meshes_in_shape();
   void find_forces();
   void prepare_cells();

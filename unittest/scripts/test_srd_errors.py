@@ -49,6 +49,12 @@ for name, script, words in (
         ("a grid of fixed place with a short free path",
          scene(fix=LINE.replace(" shift yes 9127", "").replace("mesh 10", "mesh 1")), ["mean free path", "use shift yes"]),
         ("solvent with another integrator", scene(more="fix 3 solvent nve\n"), ["moves its solvent itself"]),
+        ("two fixes around one membrane", scene(
+            solvent=SOLVENT + "create_atoms 3 random 500 77 box\nset type 3 mass 1.0\n",
+            more="group second type 3\n" + LINE.replace("fix 2 solvent", "fix 4 second")),
+         ["one fix must have all solvent"]),
+        ("a level that is too fine", with_args("level 9"), ["level 9 is not between 0 and 4"]),
+        ("a finer surface with impulses on control points", with_args("level 1 impulse control"), ["leave out level"]),
         ("a membrane without momenta", scene(integrator="fix 1 membrane hd/brownian 1.0 4711 gamma_t 1.0\n"),
          ["knows no momenta", "hd/nve"]),
         ("a mass matrix without point masses", scene(integrator="fix 1 membrane hd/nve mass lumped\n"),
