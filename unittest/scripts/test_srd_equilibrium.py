@@ -2,7 +2,9 @@
 around it, and has the undulations of theory: in equilibrium they do not depend on what surrounds it.
 
 A sheet of 8 x 8 points, kc = 200 kT, in a periodic box of solvent with the only thermostat. Theory for the sheet is
-that of the discrete system without solvent, as in test_spectrum.py. A wave moves the solvent
+that of the discrete system without solvent, as in test_spectrum.py. A tension of 3/2 kT per area of a control point
+makes up for the entropy of their positions, which would stretch the sheet in its frame: so there is no tension in
+the spectrum (doc/src/Howto_srd.rst). A wave moves the solvent
 within 1/q on its two sides,
 
     w^2 = kc q^4/(rho_s + 2 rho/q),
@@ -51,7 +53,7 @@ group           membrane type 1
 group           solvent type 2
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 {KC} 0.0 regularize {0.5 * KC}
+pair_coeff      1 1 {KC} 0.0 tension {1.5 * POINTS / AREA!r} regularize {0.5 * KC}
 fix             1 membrane hd/nve
 fix             srd solvent srd/mesh 25 membrane 1.0 1.0 4711 angle 130 shift yes 9127 tstat yes cubic error 0.02 &
                 collision {{collision}}
