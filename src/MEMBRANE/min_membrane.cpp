@@ -36,7 +36,8 @@ using namespace LAMMPS_NS;
 using Membrane_NS::BendingMetric;
 
 static constexpr double EPS_ENERGY = 1.0e-8;
-static constexpr int SMALL_GAINS = 10;        // in short steps, one after another, end the search
+static constexpr int SMALL_GAINS = 9;         // in short steps, one after another, end the search
+static constexpr int FULL_STEP = 3;           // as many as these counts a small gain in a full one
 static constexpr double MOST_STRAIN = 0.3;    // of an edge, in one iteration
 
 /* ---------------------------------------------------------------------- */
@@ -267,12 +268,13 @@ int MinMembrane::iterate(int maxiter)
 
     if (neval >= update->max_eval) return MAXEVAL;
 
-    // a small gain ends the search unless the step was a short one, which gains little anywhere;
-    // of those it takes several in a row
+    // small gains in a row end the search: a few, or several if steps were short, which gain little
+    // anywhere
 
     if (std::fabs(ecurrent - eprevious) <
         update->etol * 0.5 * (std::fabs(ecurrent) + std::fabs(eprevious) + EPS_ENERGY)) {
-      if (alpha_final >= 0.5 || ++small_gains == SMALL_GAINS) return ETOL;
+      small_gains += alpha_final >= 0.5 ? FULL_STEP : 1;
+      if (small_gains >= SMALL_GAINS) return ETOL;
     } else
       small_gains = 0;
     if (update->ftol > 0.0) {
