@@ -242,18 +242,16 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
     const double *vi = v + 3 * (size_t) i;
     const double speed = std::sqrt(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2]);
     clearance[i] -= dt * speed;
-    if (!(clearance[i] > at_most)) {
+    if (!(clearance[i] > surface_comes)) {
       const Near here = {i, {Vector3d::Map(xi), Vector3d::Map(vi)}, speed};
-      if (!(clearance[i] > surface_comes)) {
-        const bool inside = look(here, solvent, dt);
-        all_found = all_found && inside;
-        if (!inside || !found.empty()) {
-          near.push_back(here);
-          continue;
-        }
+      const bool inside = look(here, solvent, dt);
+      all_found = all_found && inside;
+      if (!inside || !found.empty()) {
+        near.push_back(here);
+        continue;
       }
-      if (clearance[i] <= at_most) passed.push_back({i, here.path.origin});
     }
+    if (clearance[i] <= at_most) passed.push_back({i, Vector3d::Map(xi)});
     if (!have_walls)
       for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
     else if (walls.stream(xi, atom->v[i], solvent.mass()[i], dt))
