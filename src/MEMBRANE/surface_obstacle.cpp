@@ -225,7 +225,7 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
   const bool dense = solvent.dense(), have_walls = walls.any();
   if (have_walls) vertex_slack = most_slack();
   near.clear();
-  passed.clear();
+  taken_back.clear();
   grid.begin(motion.surface(), *vertices, motion.lattice_now(), dt, vertex_slack,
              motion.lattice_rate());
   events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
@@ -234,8 +234,7 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
   double *x = atom->x[0];
   const double *v = atom->v[0];
   bool all_found = true;
-  const double surface_comes = travelled + dt * fastest + vertex_slack,
-               at_most = travelled + dt * fastest + most_slack();
+  const double surface_comes = travelled + dt * fastest + vertex_slack;
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!dense && !solvent.has(i)) continue;
     double *xi = x + 3 * (size_t) i;
@@ -251,7 +250,6 @@ bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, d
         continue;
       }
     }
-    if (clearance[i] <= at_most) passed.push_back({i, Vector3d::Map(xi)});
     if (!have_walls)
       for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
     else if (walls.stream(xi, atom->v[i], solvent.mass()[i], dt))
@@ -307,19 +305,17 @@ void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &wall
    vertices are deflected further than foreseen: what moved already may meet them after all
 ------------------------------------------------------------------------- */
 
-void SurfaceObstacle::take_back(double dt)
+void SurfaceObstacle::take_back(const SRDSolvent &solvent, double dt)
 {
+  std::vector<char> noted(atom->nlocal, 0);
+  for (const Near &n : near) noted[n.atom] = 1;
   const double surface_comes = travelled + dt * fastest + vertex_slack;
-  size_t kept = 0;
-  for (const Passed &p : passed) {
-    if (clearance[p.atom] > surface_comes) {
-      passed[kept++] = p;
-      continue;
-    }
-    const Vector3d v = Vector3d::Map(atom->v[p.atom]);
-    near.push_back({p.atom, {p.from, v}, v.norm()});
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (noted[i] || !solvent.has(i) || clearance[i] > surface_comes) continue;
+    const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
+    taken_back.push_back({near.size(), x});
+    near.push_back({i, {x - dt * v, v}, v.norm()});
   }
-  passed.resize(kept);
 }
 
 double SurfaceObstacle::most_slack() const
@@ -340,7 +336,7 @@ void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, doub
       point_slack *= 2.0;
     else if (vertex_slack < most_slack()) {
       vertex_slack = std::min(2.0 * vertex_slack, most_slack());
-      take_back(dt);
+      take_back(solvent, dt);
     } else
       error->one(FLERR,
                  "{}: solvent deflects the surface by more than {} of an edge in one step: use a "
@@ -397,6 +393,8 @@ void SurfaceObstacle::finish(BoxWalls &walls, double dt)
     Vector3d::Map(atom->v[i]) = path.velocity;
     if (events.bounces(n) > 0) forget(i);
   }
+  for (const TakenBack &t : taken_back)    // to the last bit
+    if (events.bounces(t.number) == 0) Vector3d::Map(atom->x[near[t.number].atom]) = t.end;
   Vector3d::Map(walls.impulse) += events.wall_impulse();
 
   tally[COLLISIONS] += events.impulses().size();

@@ -103,11 +103,11 @@ class SurfaceObstacle : protected Pointers {
     double speed;
   };
   std::vector<Near> near;
-  struct Passed {              // one that may if vertices are deflected further
-    int atom;
-    Eigen::Vector3d from;
+  struct TakenBack {           // one that had moved already
+    size_t number;             // in near
+    Eigen::Vector3d end;       // where to
   };
-  std::vector<Passed> passed;
+  std::vector<TakenBack> taken_back;
   std::vector<int> found;
   double vertex_slack, point_slack;
 
@@ -129,7 +129,7 @@ class SurfaceObstacle : protected Pointers {
   bool move_or_note(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
   bool look(const Near &, const SRDSolvent &, double dt);
   void look_again(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
-  void take_back(double dt);
+  void take_back(const SRDSolvent &, double dt);
   double most_slack() const;
   void run(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
   bool exchange();
