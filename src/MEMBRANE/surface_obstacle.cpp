@@ -391,7 +391,7 @@ void SurfaceObstacle::finish(BoxWalls &walls, double dt)
     const MovingPoint &path = events.path(n);
     Vector3d::Map(atom->x[i]) = path.at(dt);
     Vector3d::Map(atom->v[i]) = path.velocity;
-    if (events.bounces(n) > 0) forget(i);
+    if (path.velocity != near[n].path.velocity) forget(i);    // it may be faster, from walls, too
   }
   for (const TakenBack &t : taken_back)    // to the last bit
     if (events.bounces(t.number) == 0) Vector3d::Map(atom->x[near[t.number].atom]) = t.end;
