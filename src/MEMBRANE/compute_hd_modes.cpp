@@ -213,9 +213,8 @@ void ComputeHDModes::join_heights()
   const auto &topology = mesh->topology();
   std::vector<int> lacking(topology.num_vertices(), 0);
   int any = 0, all;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh->vertex_of_atom(i);
-    if (v < 0 || topology.component(v) != component) continue;
+  for (const auto &[i, v] : mesh->owned_points()) {
+    if (topology.component(v) != component) continue;
     double unwrapped[3];
     domain->unmap(atom->x[i], atom->image[i], unwrapped);
     const double off = mesh->unwrapped()[3 * (size_t) v + 2] - unwrapped[2];

@@ -72,9 +72,7 @@ void ComputeMembraneCurvatureAtom::localize()
   points.clear();
 
   const auto &topology = mesh->topology();
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh->vertex_of_atom(i);
-    if (v < 0) continue;
+  for (const auto &[i, v] : mesh->owned_points()) {
     const IntSpan ring = topology.ring(v), faces = topology.faces_around(v);
     const int n = ring.size();
 

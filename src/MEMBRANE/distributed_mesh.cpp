@@ -454,10 +454,11 @@ void DistributedMesh::refresh()
   ++local_epoch;
 
   faces_here.clear();
-  vertices_here.resize(atom->nlocal);
+  points_here.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = vertices_here[i] = vertex(atom->tag[i]);
+    const int v = vertex(atom->tag[i]);
     if (v < 0) continue;
+    points_here.push_back({i, v});
     for (int f : topo.faces_around(v))
       if (topo.face(f)[0] == v) faces_here.push_back(f);
   }
@@ -536,5 +537,5 @@ double DistributedMesh::memory_usage() const
 {
   return topo.memory_usage() + sizeof(tagint) * tags.capacity() +
       sizeof(double) * whole.capacity() +
-      sizeof(int) * (faces_here.capacity() + vertices_here.capacity());
+      sizeof(int) * faces_here.capacity() + sizeof(OwnedPoint) * points_here.capacity();
 }

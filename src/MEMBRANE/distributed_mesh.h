@@ -82,8 +82,11 @@ class DistributedMesh : protected Pointers {
   /// Counts reneighbourings: local indices are valid as long as this stays the same.
   bigint epoch() const { return local_epoch; }
   const std::vector<int> &owned_faces() const { return faces_here; }
-  /// The vertex of an owned atom, or -1.
-  int vertex_of_atom(int i) const { return vertices_here[i]; }
+  /// Owned control points, in the order of atoms.
+  struct OwnedPoint {
+    int atom, vertex;
+  };
+  const std::vector<OwnedPoint> &owned_points() const { return points_here; }
   /// Group owned faces for a set of rules; points are local atom indices (owned and ghost).
   std::vector<Membrane_NS::FaceGroup> local_groups(Membrane_NS::PatchRules &rules,
                                                    const std::vector<int> &faces);
@@ -115,7 +118,8 @@ class DistributedMesh : protected Pointers {
   bool stale = true;
   bigint seen_ncalls = -1, seen_lastcall = -1, local_epoch = 0;
   int seen_nlocal = -1, seen_nghost = -1;
-  std::vector<int> faces_here, vertices_here;
+  std::vector<int> faces_here;
+  std::vector<OwnedPoint> points_here;
 
   struct AngleList;
   void collect_angles(AngleList &);

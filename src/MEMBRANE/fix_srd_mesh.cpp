@@ -56,7 +56,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     set_velocities(true), ghosts(false), level(0), bounces(0), search(0.0),
     solvent(lmp, igroup), streaming(lmp), have_obstacle(false), running(false), membranes_join(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
-    clear_forces(false), values{}, carried{}, sampled(-1)
+    velocities_stay(false), clear_forces(false), values{}, carried{}, sampled(-1)
 {
   time_integrate = 1;
   force_reneighbor = 1;
@@ -241,7 +241,7 @@ void FixSRDMesh::init()
   running = false;
   solvent.refresh();
   check_group();
-  find_forces();
+  find_influences();
   aside.init(!ghosts);
   clear_forces = aside.active();
   streaming.find_walls();
@@ -343,24 +343,37 @@ void FixSRDMesh::check_other_solvents()
 }
 
 /* ----------------------------------------------------------------------
-   most solvent feels no force: then there is none to read, nor to clear
+   most solvent feels no force: then there is none to read, nor to clear; and nobody but this fix changes
+   its velocities and places, which then are known in advance
 ------------------------------------------------------------------------- */
 
-void FixSRDMesh::find_forces()
+void FixSRDMesh::find_influences()
 {
-  int mine = 0, any;
+  static constexpr const char *OBSERVERS[] = {"^ave/", "^print$", "^vector$", "^store/", "^STORE/", "^halt$"};
+  constexpr int BY_FORCES = POST_FORCE | PRE_REVERSE;
+  constexpr int OTHERWISE = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR |
+      POST_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP;
+  int mine[2] = {0, 0}, any[2];    // forces, velocities
   const auto &fixes = modify->get_fix_list();
   for (size_t f = 0; f < fixes.size(); ++f) {
-    if (!(modify->fmask[f] & (POST_FORCE | PRE_REVERSE))) continue;
-    for (int i = 0; i < atom->nlocal && !mine; ++i)
-      if (solvent.has(i) && atom->mask[i] & fixes[f]->groupbit) mine = 1;
+    if (fixes[f] == this) continue;
+    const int mask = modify->fmask[f];
+    const bool observes = std::any_of(
+        std::begin(OBSERVERS), std::end(OBSERVERS),
+        [&](const char *pattern) { return utils::strmatch(fixes[f]->style, pattern); });
+    const int acts[2] = {mask & BY_FORCES, observes ? 0 : mask & OTHERWISE};
+    for (int what = 0; what < 2; ++what)
+      for (int i = 0; i < atom->nlocal && acts[what] && !mine[what]; ++i)
+        if (solvent.has(i) && (group->dynamic[fixes[f]->igroup] || atom->mask[i] & fixes[f]->groupbit))
+          mine[what] = 1;
   }
   if (force->pair && force->pair->cutsq)
-    for (int i = 0; i < atom->nlocal && !mine; ++i)
+    for (int i = 0; i < atom->nlocal && !mine[0]; ++i)
       for (int t = 1; t <= atom->ntypes && solvent.has(i); ++t)
-        if (force->pair->cutsq[atom->type[i]][t] > 0.0) mine = 1;
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  have_forces = any;
+        if (force->pair->cutsq[atom->type[i]][t] > 0.0) mine[0] = 1;
+  MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
+  have_forces = any[0];
+  velocities_stay = !any[1];
 }
 
 /* ----------------------------------------------------------------------
@@ -512,11 +525,19 @@ void FixSRDMesh::post_run()
 void FixSRDMesh::kick()
 {
   const double half = 0.5 * update->dt * force->ftm2v;
+  double most = 0.0;
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!solvent.has(i)) continue;
     const double scale = half / solvent.mass()[i];
-    for (int k = 0; k < 3; ++k) atom->v[i][k] += scale * atom->f[i][k];
+    double squared = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double change = scale * atom->f[i][k];
+      atom->v[i][k] += change;
+      squared += change * change;
+    }
+    most = MAX(most, squared);
   }
+  if (obstacle) obstacle->kicked(std::sqrt(most));
 }
 
 /* ----------------------------------------------------------------------
@@ -529,24 +550,42 @@ void FixSRDMesh::kick()
 void FixSRDMesh::post_integrate()
 {
   const double dt = update->dt;
+  const bool due = is_due();
   if (have_obstacle) {
     streaming.place_walls();
     obstacle->begin_step(dt);
-    if (membranes_join && is_due()) {
-      obstacle->stream(solvent, streaming.walls, 0.5 * dt);
+    if (membranes_join && due) {
+      stream_past_membranes(0.5 * dt, 0.5 * dt);
+      wrap();
       collide();
-      obstacle->stream(solvent, streaming.walls, 0.5 * dt);
-    } else
-      obstacle->stream(solvent, streaming.walls, dt);
-  } else
+      stream_past_membranes(0.5 * dt, nevery * dt);
+    } else {
+      const double wait = dt * (nevery - 1 - (update->ntimestep - 1) % nevery);
+      stream_past_membranes(dt, wait + (membranes_join ? 0.5 : 1.0) * dt);
+      if (due) wrap();
+    }
+  } else {
     streaming.stream(solvent, dt);
+    if (due) wrap();
+  }
   sampled = -1;
-  const bool due = is_due();
-  if (due && aside.active() && !domain->deform_vremap)    // LAMMPS changes velocities, too
-    for (int i = solvent.first(); i < solvent.last(); ++i)
-      if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
   if ((due && domain->deform_vremap) || (comm->nprocs > 1 && any_strayed()))
     next_reneighbor = update->ntimestep;
+}
+
+// velocities stay the same until the next collision in cells, if that is all that changes them
+
+void FixSRDMesh::stream_past_membranes(double dt, double until_collision)
+{
+  if (!velocities_stay) obstacle->forget();
+  obstacle->stream(solvent, streaming, dt, velocities_stay ? until_collision : dt);
+}
+
+void FixSRDMesh::wrap()
+{
+  if (!aside.active() || domain->deform_vremap) return;    // LAMMPS changes velocities, too
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -570,6 +609,7 @@ bool FixSRDMesh::any_strayed()
 void FixSRDMesh::pre_neighbor()
 {
   solvent.refresh();
+  if (obstacle) obstacle->forget();
   cells->grid.setup(cell_settings.size);
   if (!have_forces) zero_forces();
 }
@@ -590,6 +630,7 @@ void FixSRDMesh::collide()
   if (membranes_join) obstacle->join_cells(*cells, update->ntimestep, kT());
   cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
   if (membranes_join) obstacle->leave_cells(*cells);
+  if (have_obstacle) obstacle->forget();
 }
 
 void FixSRDMesh::min_pre_force(int)
@@ -713,7 +754,6 @@ void FixSRDMesh::copy_arrays(int i, int j, int)
 void FixSRDMesh::set_arrays(int i)
 {
   obstacle->regions.region[i] = 0;
-  obstacle->forget(i);
 }
 
 int FixSRDMesh::pack_exchange(int i, double *buf)
@@ -725,7 +765,6 @@ int FixSRDMesh::pack_exchange(int i, double *buf)
 int FixSRDMesh::unpack_exchange(int i, double *buf)
 {
   obstacle->regions.region[i] = static_cast<int>(buf[0]);
-  obstacle->forget(i);
   return 1;
 }
 

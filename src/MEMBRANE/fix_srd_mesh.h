@@ -96,6 +96,7 @@ class FixSRDMesh : public Fix {
   double filling;              // mean number in a cell
   bool velocities_set;         // by the first run
   bool have_forces;            // some fix or pair style acts on solvent
+  bool velocities_stay;        // but for forces and what this fix does
   bool clear_forces;           // LAMMPS does not
 
   enum {
@@ -111,11 +112,13 @@ class FixSRDMesh : public Fix {
   void check_group();
   void check_other_solvents();
   void keep_meshes_in_shape();
-  void find_forces();
+  void find_influences();
   void prepare_cells();
   void report();
   void maxwell();
   void kick();
+  void stream_past_membranes(double dt, double until_collision);
+  void wrap();
   void collide();
   void zero_forces();
   bool is_due() const;

@@ -70,8 +70,8 @@ int HDMass::parse(int iarg, int narg, char **arg)
 
 void HDMass::init(bool other_atoms)
 {
-  if (settings.direct && settings.kind != MassKind::CONSISTENT)
-    error->all(FLERR, "{} solver direct belongs to mass consistent; the others need none", user);
+  if (settings.direct && settings.kind == MassKind::LUMPED)
+    error->all(FLERR, "{} solver direct: mass lumped needs no solver", user);
   surface->update();
   check_group(other_atoms);
   epoch = -1;

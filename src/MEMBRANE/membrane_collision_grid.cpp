@@ -25,9 +25,6 @@ using namespace Membrane_NS;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// cubes are counted so far
-static constexpr int MOST_AWAY = 8;
-
 /* ---------------------------------------------------------------------- */
 
 void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
@@ -128,13 +125,13 @@ void SurfaceGrid::fill(double pad)
       from[k] = std::max(0, static_cast<int>(std::floor(a)));
       to[k] = std::min(size_[k] - 1, static_cast<int>(std::floor(b)));
     }
-    const Vector3d normal = plane.plane.head<3>();
+    const Vector3d normal = Vector3d::Map(plane.normal);
     const double within = pad + 0.5 * spacing_ * normal.lpNorm<1>();
     for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
       for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
         for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
           const Vector3d centre = lo_ + spacing_ * Vector3d(i[0] + 0.5, i[1] + 0.5, i[2] + 0.5);
-          if (std::fabs(normal.dot(centre) + plane.plane[3]) > within) continue;
+          if (std::fabs(normal.dot(centre) + plane.offset) > within) continue;
           const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
           entries.emplace_back(cube, t);
           ++start_[cube + 1];
@@ -182,6 +179,16 @@ void SurfaceGrid::find_distances()
     spread(size_[1], row);
     spread(size_[2], layer);
   }
+
+  // nothing is known beyond the grid, which in the first cubes is next to them
+
+  size_t c = 0;
+  std::array<int, 3> i;
+  for (i[2] = 0; i[2] < size_[2]; ++i[2])
+    for (i[1] = 0; i[1] < size_[1]; ++i[1])
+      for (i[0] = 0; i[0] < size_[0]; ++i[0], ++c)
+        for (int k = 0; k < 3; ++k)
+          away_[c] = std::min<int>(away_[c], 1 + std::min(i[k], size_[k] - 1 - i[k]));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -206,32 +213,48 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
 {
   triangles_.resize(images_.size());
   planes_.resize(images_.size());
+  slabs_.resize(images_.size());
+  slack_ = slack;
   most_moves_ = 0.0;
   for (size_t t = 0; t < images_.size(); ++t) {
     const Image &image = images_[t];
     SurfaceTriangle &triangle = triangles_[t];
     Plane &plane = planes_[t];
-    std::array<Vector3d, 3> x;
+    std::array<Vector3d, 3> x, v;
     double fastest = 0.0;
     for (int k = 0; k < 3; ++k) {
       std::array<int, 3> n = image.lattice;
       if (!surface.seams.empty())
         for (int j = 0; j < 3; ++j) n[j] += surface.seams[image.face][k][j];
-      const int v = triangle.vertex[k] = surface.faces[image.face][k];
-      const Vector3d images(n[0], n[1], n[2]);
-      triangle.shift[k] = lattice * images;
-      triangle.drift[k] = rate * images;
-      x[k] = vertices[v].path.origin + triangle.shift[k];
-      fastest = std::max(fastest, (vertices[v].path.velocity + triangle.drift[k]).squaredNorm());
+      const int vertex = triangle.vertex[k] = surface.faces[image.face][k];
+      const MovingPoint &path = vertices[vertex].path;
+      x[k] = path.origin;
+      v[k] = path.velocity;
+      if (n[0] || n[1] || n[2]) {
+        const Vector3d images(n[0], n[1], n[2]);
+        x[k] += triangle.shift[k] = lattice * images;
+        v[k] += triangle.drift[k] = rate * images;
+      } else
+        triangle.shift[k] = triangle.drift[k] = Vector3d::Zero();
+      fastest = std::max(fastest, v[k].squaredNorm());
     }
     Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
     const double size = normal.norm();
     if (size > 0.0) normal /= size;
-    plane.plane << normal.array(), -normal.dot(x[0]);
-    plane.lo << x[0].cwiseMin(x[1]).cwiseMin(x[2]).array(), 1.0;
-    plane.hi << x[0].cwiseMax(x[1]).cwiseMax(x[2]).array(), 1.0;
+    const double offset = -normal.dot(x[0]);
+    const Vector3d lo = x[0].cwiseMin(x[1]).cwiseMin(x[2]), hi = x[0].cwiseMax(x[1]).cwiseMax(x[2]);
+    Vector3d::Map(plane.normal) = normal;
+    plane.offset = offset;
+    Vector3d::Map(plane.lo) = lo;
+    Vector3d::Map(plane.hi) = hi;
     plane.moves = duration * std::sqrt(fastest) + slack;
     most_moves_ = std::max(most_moves_, plane.moves);
+
+    const std::array<double, 3> rise = {normal.dot(v[0]), normal.dot(v[1]), normal.dot(v[2])};
+    slabs_[t] = {{normal[0], normal[1], normal[2]},
+                 offset,
+                 duration * std::max({rise[0], rise[1], rise[2]}) + slack,
+                 duration * std::min({rise[0], rise[1], rise[2]}) - slack};
   }
   seen_.assign(images_.size(), 0);
   clock_ = 0;
@@ -239,46 +262,130 @@ void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVe
 
 /* ---------------------------------------------------------------------- */
 
-bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found, double &gap)
+bool SurfaceGrid::cubes_of(const Vector3d &lo, const Vector3d &hi, Range &range) const
 {
-  found.clear();
-  ++clock_;
-  std::array<int, 3> at, from, to, i;
-  double border = INFINITY;    // in cubes, to where nothing is known
-  const double beyond = std::max(0.0, reach + most_moves_ - listed_) * inverse_spacing_;
   for (int k = 0; k < 3; ++k) {
-    const double s = (x[k] - lo_[k]) * inverse_spacing_;
-    if (!(s - beyond >= 0.0 && s + beyond < size_[k])) return false;
-    at[k] = static_cast<int>(s);
-    border = std::min({border, s, size_[k] - s});
-    from[k] = static_cast<int>(s - beyond);
-    to[k] = static_cast<int>(s + beyond);
+    const double a = (lo[k] - lo_[k]) * inverse_spacing_, b = (hi[k] - lo_[k]) * inverse_spacing_;
+    if (!(a >= 0.0 && b < size_[k])) return false;
+    range.from[k] = static_cast<int>(a);
+    range.to[k] = static_cast<int>(b);
   }
-  const int away = away_[(at[2] * size_[1] + at[1]) * size_[0] + at[0]];
-  gap = listed_ + std::min(std::max(0.0, away - 1.0), border) * spacing_;
-  if (gap > reach + most_moves_ && away > 0) return true;
-  const Eigen::Array4d place(x[0], x[1], x[2], 1.0);
-  for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
-    for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
-      for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
+  return true;
+}
+
+template <class Near>
+void SurfaceGrid::collect(const Range &range, std::vector<int> &found, const Near &near)
+{
+  ++clock_;
+  std::array<int, 3> i;
+  for (i[2] = range.from[2]; i[2] <= range.to[2]; ++i[2])
+    for (i[1] = range.from[1]; i[1] <= range.to[1]; ++i[1])
+      for (i[0] = range.from[0]; i[0] <= range.to[0]; ++i[0]) {
         const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
         for (int j = start_[cube]; j < start_[cube + 1]; ++j) {
           const int t = list_[j];
-          const Plane &plane = planes_[t];
-          const double distance = std::max(std::fabs((plane.plane * place).sum()),
-                                           (plane.lo - place).max(place - plane.hi).maxCoeff());
-          gap = std::min(gap, distance);
-          if (distance > reach + plane.moves || seen_[t] == clock_) continue;
+          if (!near(t) || seen_[t] == clock_) continue;
           seen_[t] = clock_;
           found.push_back(t);
         }
       }
+}
+
+SurfaceGrid::Distances SurfaceGrid::distances(double tube) const
+{
+  Distances squares;
+  for (int n = 0; n <= MOST_AWAY; ++n) squares[n] = std::pow(std::max(0.0, clear(n) - tube), 2);
+  return squares;
+}
+
+bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
+{
+  found.clear();
+  Range range;
+  const Vector3d beyond = Vector3d::Constant(std::max(0.0, reach + most_moves_ - listed_));
+  if (!cubes_of(x - beyond, x + beyond, range)) return false;
+  collect(range, found, [&](int t) { return comes_within(t, x.data(), reach); });
   return true;
+}
+
+bool SurfaceGrid::find_along(const Vector3d &x, const Vector3d &end, double tube,
+                             std::vector<int> &found)
+{
+  found.clear();
+  Range range;
+  if (knows_all(tube, (end - x).squaredNorm())) {
+    if (!cubes_of(x, x, range)) return false;
+  } else {
+    const Vector3d beyond = Vector3d::Constant(std::max(0.0, tube - listed_));
+    if (!cubes_of(x.cwiseMin(end) - beyond, x.cwiseMax(end) + beyond, range)) return false;
+  }
+  collect(range, found, [&](int t) { return off_line(t, x.data(), end.data()) <= tube; });
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   a segment is at least as far from a triangle as from its plane, and as from the box around it along each
+   axis
+------------------------------------------------------------------------- */
+
+double SurfaceGrid::off_line(int triangle, const double *x, const double *end) const
+{
+  const Plane &p = planes_[triangle];
+  const double a = height(p, x), b = height(p, end);
+  double off = std::max(std::min(a, b), -std::max(a, b));
+  for (int k = 0; k < 3; ++k)
+    off = std::max({off, p.lo[k] - std::max(x[k], end[k]), std::min(x[k], end[k]) - p.hi[k]});
+  return off;
+}
+
+void SurfaceGrid::load(int cube, Batch &batch) const
+{
+  const int first = start_[cube], n = start_[cube + 1] - first;
+  batch.triangle.assign(list_.begin() + first, list_.begin() + first + n);
+  batch.offset.resize(n);
+  batch.off.resize(n);
+  for (int k = 0; k < 3; ++k)
+    for (auto *array : {&batch.normal[k], &batch.lo[k], &batch.hi[k]}) array->resize(n);
+  for (int i = 0; i < n; ++i) {
+    const Plane &p = planes_[batch.triangle[i]];
+    batch.offset[i] = p.offset;
+    for (int k = 0; k < 3; ++k) {
+      batch.normal[k][i] = p.normal[k];
+      batch.lo[k][i] = p.lo[k];
+      batch.hi[k][i] = p.hi[k];
+    }
+  }
+}
+
+// as off_line(), in a loop that compilers turn into vectors
+
+void SurfaceGrid::measure_along(Batch &batch, const double *x, const double *end)
+{
+  const int n = static_cast<int>(batch.triangle.size());
+  const double x0 = x[0], x1 = x[1], x2 = x[2], e0 = end[0], e1 = end[1], e2 = end[2];
+  const double low0 = std::min(x0, e0), low1 = std::min(x1, e1), low2 = std::min(x2, e2),
+               high0 = std::max(x0, e0), high1 = std::max(x1, e1), high2 = std::max(x2, e2);
+  const double *n0 = batch.normal[0].data(), *n1 = batch.normal[1].data(),
+               *n2 = batch.normal[2].data(), *offset = batch.offset.data();
+  const double *lo0 = batch.lo[0].data(), *lo1 = batch.lo[1].data(), *lo2 = batch.lo[2].data();
+  const double *hi0 = batch.hi[0].data(), *hi1 = batch.hi[1].data(), *hi2 = batch.hi[2].data();
+  double *off = batch.off.data();
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double a = n0[i] * x0 + n1[i] * x1 + n2[i] * x2 + offset[i];
+    const double b = n0[i] * e0 + n1[i] * e1 + n2[i] * e2 + offset[i];
+    const double plane = std::max(std::min(a, b), -std::max(a, b));
+    const double box0 = std::max(lo0[i] - high0, low0 - hi0[i]);
+    const double box1 = std::max(lo1[i] - high1, low1 - hi1[i]);
+    const double box2 = std::max(lo2[i] - high2, low2 - hi2[i]);
+    off[i] = std::max(std::max(plane, box0), std::max(box1, box2));
+  }
 }
 
 double SurfaceGrid::memory_usage() const
 {
   return away_.capacity() + sizeof(int) * (start_.capacity() + list_.capacity()) +
       sizeof(SurfaceTriangle) * triangles_.capacity() + sizeof(Plane) * planes_.capacity() +
+      sizeof(Slab) * slabs_.capacity() +
       sizeof(Image) * images_.capacity() + sizeof(Vector3d) * built_at_.capacity();
 }

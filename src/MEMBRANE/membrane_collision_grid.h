@@ -17,6 +17,7 @@
 #include "membrane_collision_events.h"
 #include "membrane_triangle_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -31,17 +32,18 @@ struct SurfaceFaces {
   std::vector<std::array<std::array<int, 3>, 3>> seams;
 };
 
-/** Finds the triangles of a moving surface that a moving point may meet in a step, or how far away
-    they are.
+/** Finds the triangles of a moving surface that a moving point may meet.
 
     Space is cut into cubes; a cube knows the triangles, in whichever periodic image, that came
     within `skin` and `reach` of it when the grid was built, or if there are none, how many cubes away
     is one that does. The grid serves until a vertex has moved by more than `skin`. */
 class SurfaceGrid {
+  static constexpr int MOST_AWAY = 4;    // cubes are counted so far
+
  public:
   struct Settings {
     double skin;       ///< vertices may move so far before the grid is built anew
-    double reach;      ///< of a point, so far one look is enough, and further it takes more
+    double reach;      ///< so far from a point one look is enough, and further it takes more
     double spacing;    ///< of the cubes, at least
     int most_cubes = 1 << 22;
   };
@@ -66,19 +68,91 @@ class SurfaceGrid {
              const Eigen::Matrix3d &rate = Eigen::Matrix3d::Zero());
   const std::vector<SurfaceTriangle> &triangles() const { return triangles_; }
   const std::vector<Image> &images() const { return images_; }
+  /// How far a corner comes in this step, at most.
+  double most_moves() const { return most_moves_; }
 
-  /** Triangles that may come within `reach` of x in this step, each once; false if that goes
-      beyond the grid. gap: no triangle is nearer than that at the start of the step; known up to some
-      distance, which is less near triangles. */
-  bool find(const Eigen::Vector3d &x, double reach, std::vector<int> &found, double &gap);
+  /// Triangles that may come within `reach` of x in this step, each once; false if that goes
+  /// beyond the grid.
+  bool find(const Eigen::Vector3d &x, double reach, std::vector<int> &found);
+  /// Whether a triangle may.
+  bool comes_within(int triangle, const double *x, double reach) const
+  {
+    const Plane &p = planes_[triangle];
+    double distance = std::fabs(height(p, x));
+    for (int k = 0; k < 3; ++k) distance = std::max({distance, p.lo[k] - x[k], x[k] - p.hi[k]});
+    return distance <= reach + p.moves;
+  }
+  /// Triangles that are now within `tube` of the straight line from x to `end`, and maybe others, each
+  /// once; false if that goes beyond the grid.
+  bool find_along(const Eigen::Vector3d &x, const Eigen::Vector3d &end, double tube,
+                  std::vector<int> &found);
+  /// The triangles that a cube knows, in arrays by coordinate: for many points in it, one after the other.
+  struct Batch {
+    std::vector<int> triangle;
+    std::array<std::vector<double>, 3> normal, lo, hi;
+    std::vector<double> offset, off;
+  };
+  /// Whether these are all within `tube` of a line of that squared length that starts in the cube.
+  bool knows_all(double tube, double squared_length) const
+  {
+    const double spare = listed_ - tube;
+    return spare > 0.0 && spare * spare > squared_length;
+  }
+  void load(int cube, Batch &batch) const;
+  /// off: how far away from that line each is, or less.
+  static void measure_along(Batch &batch, const double *x, const double *end);
+  double off_line(int triangle, const double *x, const double *end) const;
+  /// Whether a point that moves from x by `path` in this step, both known to within `extra`, can meet a
+  /// triangle.
+  bool can_meet(int triangle, const double *x, const double *path, double extra = 0.0) const
+  {
+    const Slab &s = slabs_[triangle];
+    const double first =
+        s.normal[0] * x[0] + s.normal[1] * x[1] + s.normal[2] * x[2] + s.offset;
+    const double last =
+        first + s.normal[0] * path[0] + s.normal[1] * path[1] + s.normal[2] * path[2];
+    if ((first > slack_ + extra && last > s.up + extra) ||
+        (first < -slack_ - extra && last < s.down - extra))
+      return false;
+    const Plane &p = planes_[triangle];
+    const double room = p.moves + extra;
+    bool meets = true;
+    for (int k = 0; k < 3; ++k)
+      meets = meets && std::max(x[k], x[k] + path[k]) >= p.lo[k] - room &&
+          std::min(x[k], x[k] + path[k]) <= p.hi[k] + room;
+    return meets;
+  }
+
+  /// Squares of lengths, by how many cubes away the next triangles are.
+  using Distances = std::array<double, MOST_AWAY + 1>;
+  /// Of what is clear around a place, less `tube`.
+  Distances distances(double tube) const;
+  /// The cube of a place, or -1 if it is beyond the grid.
+  int cube(const double *x) const
+  {
+    std::array<int, 3> at;
+    for (int k = 0; k < 3; ++k) {
+      const double s = (x[k] - lo_[k]) * inverse_spacing_;
+      if (!(s >= 0.0 && s < size_[k])) return -1;
+      at[k] = static_cast<int>(s);
+    }
+    return (at[2] * size_[1] + at[1]) * size_[0] + at[0];
+  }
+  int num_cubes() const { return size_[0] * size_[1] * size_[2]; }
+  int away(int cube) const { return away_[cube]; }
 
   double memory_usage() const;
 
  private:
-  // of a triangle at the start of the step: its plane as normal and -offset, and the box around it
+  // of a triangle at the start of the step: its plane and the box around it
   struct Plane {
-    Eigen::Array4d plane, lo, hi;    // last of lo and hi: 1
-    double moves;                    // how far its corners come
+    double normal[3], offset, lo[3], hi[3];
+    double moves;    // how far its corners come
+  };
+  // all of it is between two planes, at the start of the step `slack_` to either side of the plane, at the
+  // end at heights of up and down over it
+  struct Slab {
+    double normal[3], offset, up, down;
   };
   Settings settings_ = {};
   Eigen::Vector3d lo_;
@@ -87,20 +161,35 @@ class SurfaceGrid {
   std::vector<Eigen::Vector3d> built_at_;
   double listed_ = 0.0;        // cubes know all triangles that are nearer than that now
   double most_moves_ = 0.0;    // of all triangles in this step
+  double slack_ = 0.0;
   Eigen::Matrix3d lattice_;
   std::vector<Image> images_;
-  std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles, or more
+  std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles or beyond the grid, or more
   std::vector<int> start_, list_;
 
   std::vector<SurfaceTriangle> triangles_;
   std::vector<Plane> planes_;
+  std::vector<Slab> slabs_;
   std::vector<int> seen_;
   int clock_ = 0;
 
+  static double height(const Plane &p, const double *x)
+  {
+    return p.normal[0] * x[0] + p.normal[1] * x[1] + p.normal[2] * x[2] + p.offset;
+  }
   void find_images(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
                    const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
                    const Eigen::Vector3d &hi, double pad);
   void fill(double pad);
+  // the cubes that a box comes to; false if it leaves the grid
+  struct Range {
+    std::array<int, 3> from, to;
+  };
+  bool cubes_of(const Eigen::Vector3d &lo, const Eigen::Vector3d &hi, Range &range) const;
+  // the triangles of these cubes that `near` takes, each once
+  template <class Near> void collect(const Range &range, std::vector<int> &found, const Near &near);
+  // no triangle is nearer to a place, as far as is known without looking at any
+  double clear(int away) const { return away == 0 ? 0.0 : listed_ + (away - 1.0) * spacing_; }
   void find_distances();
 };
 

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <type_traits>
 
 using namespace Membrane_NS;
 
@@ -157,7 +158,8 @@ inline Lane3 load3(const std::vector<double> &array, int slot)
   return lane;
 }
 
-constexpr int REGULAR = 12;        // control points of a regular face
+// control points of a regular face, and of faces with one corner of valence 5 or 7
+constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13;
 
 // fetch the control points of a block, relative to its first ones
 inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out)
@@ -236,12 +238,17 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     const double *wuu = w + LimitBasis::DUU * size, *wuv = w + LimitBasis::DUV * size;
     const double *wvv = w + LimitBasis::DVV * size;
 
+    // in two loops, whose sums fit into 16 vector registers
+
     Lane3 r{}, ru{}, rv{}, ruu{}, ruv{}, rvv{};
     for (int k = 0; k < size; ++k) {
       const Lane3 p = x[k];
       if (VOLUME) r += w[k] * p;
       ru += wu[k] * p;
       rv += wv[k] * p;
+    }
+    for (int k = 0; k < size; ++k) {
+      const Lane3 p = x[k];
       ruu += wuu[k] * p;
       ruv += wuv[k] * p;
       rvv += wvv[k] * p;
@@ -301,6 +308,17 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
   }
 }
 
+// the compiler unrolls loops over frequent numbers of control points; 0 is any
+template <class Choose> auto with_size(int size, const Choose &choose)
+{
+  switch (size) {
+    case REGULAR: return choose(std::integral_constant<int, REGULAR>());
+    case FIVE: return choose(std::integral_constant<int, FIVE>());
+    case SEVEN: return choose(std::integral_constant<int, SEVEN>());
+    default: return choose(std::integral_constant<int, 0>());
+  }
+}
+
 // choose the instance once per group, not in the loop
 template <int SIZE> auto choose_force_block(const HelfrichTerms &terms)
 {
@@ -317,10 +335,10 @@ void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
                                  const FaceModel &model, FaceIntegrals &out)
 {
   const PatchRule &rule = *group.rule;
-  const bool volume = !out.volume.empty(), regular = rule.size == REGULAR;
-  auto integrate = regular
-      ? (volume ? integrate_block<REGULAR, true> : integrate_block<REGULAR, false>)
-      : (volume ? integrate_block<0, true> : integrate_block<0, false>);
+  const bool volume = !out.volume.empty();
+  auto integrate = with_size(rule.size, [volume](auto size) {
+    return volume ? integrate_block<size(), true> : integrate_block<size(), false>;
+  });
 
   Lane3 p[MOST_POINTS], vector_area;
   Lane area, enclosed;
@@ -346,8 +364,8 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
                               const HelfrichTerms &terms, double (*f)[3], FaceEnergies &out)
 {
   const PatchRule &rule = *group.rule;
-  auto evaluate = rule.size == REGULAR ? choose_force_block<REGULAR>(terms)
-                                       : choose_force_block<0>(terms);
+  auto evaluate =
+      with_size(rule.size, [&terms](auto size) { return choose_force_block<size()>(terms); });
 
   Lane3 p[MOST_POINTS], g[MOST_POINTS];
   Lane bending, gauss, area;

@@ -48,6 +48,17 @@ MassOperator::MassOperator(const Topology &topology, VertexPart &part,
     label_.push_back(labels[part.vertices[i]]);
   }
   if (settings.kind == MassKind::VERTEX) build_rings(topology);
+  if (settings.kind == MassKind::VERTEX && settings.direct) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int v = 0; v < topology.num_vertices(); ++v) {
+      if (masses[v] == 0.0) continue;
+      const int n = topology.valence(v);
+      const double c = limit_mask_centre(n);
+      entries.emplace_back(v, v, n * c / (1.0 - c));
+      for (int w : topology.ring(v)) entries.emplace_back(v, w, 1.0);
+    }
+    factorize(topology, masses, entries);
+  }
   if (settings.kind == MassKind::CONSISTENT) build_rows(topology, masses, labels);
 }
 
@@ -145,12 +156,6 @@ void MassOperator::build_rings(const Topology &topology)
 
 namespace {
 
-// the four numbers of a vertex, as one value of the compiler's vector extension
-typedef double Quad __attribute__((vector_size(sizeof(Vector4)), may_alias));
-
-inline const Quad &quad(const Vector4 &v) { return reinterpret_cast<const Quad &>(v); }
-inline Quad &quad(Vector4 &v) { return reinterpret_cast<Quad &>(v); }
-
 // sum over a ring; nearly all have six vertices
 inline Quad ring_sum(const int *ring, int n, const Vector4 *x)
 {
@@ -202,6 +207,14 @@ void MassOperator::chebyshev_pass(int first, int last, double omega, const Verte
 }
 
 void MassOperator::solve_mask(const VertexField &b, VertexField &x)
+{
+  if (!factor_) return chebyshev(b, x);
+  x.resize(part_.size());
+  for (int i = 0; i < part_.owned; ++i) quad(x[i]) = quad(b[i]) / spoke_[i];
+  solve_direct(x, x);
+}
+
+void MassOperator::chebyshev(const VertexField &b, VertexField &x)
 {
   constexpr int TOGETHER = 8;    // passes: their layers fit into a second-level cache
   const int n = part_.owned;
@@ -338,25 +351,25 @@ void MassOperator::build_rows(const Topology &topology, const std::vector<double
   rows_.resize(part_.owned, part_.size());
   rows_.setFromTriplets(entries.begin(), entries.end());
   for (int i = 0; i < part_.owned; ++i) diagonal_.push_back(rows_.coeff(i, i));
-  if (!settings_.direct) return;
-  Eigen::SparseMatrix<double> matrix(topology.num_vertices(), topology.num_vertices());
-  for (int v = 0; v < topology.num_vertices(); ++v)
-    if (masses[v] == 0.0) all.emplace_back(v, v, 1.0);    // not of this operator
-  matrix.setFromTriplets(all.begin(), all.end());
-  factor_ = std::make_unique<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>(matrix);
+  if (settings_.direct) factorize(topology, masses, all);
 }
 
-void MassOperator::solve_direct(const VertexField &p, VertexField &v)
+void MassOperator::factorize(const Topology &topology, const std::vector<double> &masses,
+                             std::vector<Eigen::Triplet<double>> &entries)
 {
-  const int n = static_cast<int>(factor_->rows());
-  VertexField all(n);
-  part_.gather(p, all);
-  Eigen::Matrix<double, Eigen::Dynamic, 3> b(n, 3);
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 3; ++k) b(i, k) = all[i].c[k];
-  b = factor_->solve(b).eval();
-  for (int i = 0; i < part_.owned; ++i)
-    for (int k = 0; k < 3; ++k) v[i].c[k] = b(part_.vertices[i], k);
+  Eigen::SparseMatrix<double> matrix(topology.num_vertices(), topology.num_vertices());
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    if (masses[v] == 0.0) entries.emplace_back(v, v, 1.0);    // not of this operator
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  factor_ = std::make_unique<SparseCholesky>(matrix);
+  whole_.assign(topology.num_vertices(), Vector4{});
+}
+
+void MassOperator::solve_direct(const VertexField &b, VertexField &x)
+{
+  part_.gather(b, whole_);
+  factor_->solve(whole_);
+  for (int i = 0; i < part_.owned; ++i) x[i] = whole_[part_.vertices[i]];
   iterations_ = 1;
 }
 
@@ -464,7 +477,7 @@ void MassOperator::solve(const VertexField &p, VertexField &v)
       for (int i = 0; i < n; ++i)
         for (int k = 0; k < 4; ++k) work_[i].c[k] = v[i].c[k] / (spoke_[i] * mass_[i]);
       solve_mask(work_, v);
-      iterations_ = 2 * passes_;
+      iterations_ *= 2;
   }
 }
 
@@ -557,6 +570,6 @@ double MassOperator::memory_usage() const
 {
   return sizeof(Vector4) * (previous_.capacity() + work_.capacity() + scratch_.capacity() +
                             kick_.capacity()) +
-      sizeof(int) * (ring_.capacity() + ring_start_.capacity()) +
-      12.0 * rows_.nonZeros();
+      sizeof(int) * (ring_.capacity() + ring_start_.capacity()) + 12.0 * rows_.nonZeros() +
+      (factor_ ? factor_->memory_usage() : 0.0);
 }

@@ -14,9 +14,10 @@
 #ifndef LMP_MEMBRANE_MASS_H
 #define LMP_MEMBRANE_MASS_H
 
+#include "membrane_cholesky.h"
 #include "membrane_topology.h"
+#include "membrane_vertex_field.h"
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <array>
@@ -27,12 +28,6 @@
 #include <vector>
 
 namespace Membrane_NS {
-
-/// x, y, z of a vertex, and a fourth number so that vertices are aligned to vector units.
-struct alignas(32) Vector4 {
-  double c[4];
-};
-using VertexField = std::vector<Vector4>;
 
 /** The vertices of one rank, numbered compactly: first those it owns, then copies of neighbours
     that other ranks own, its halo. On one rank there is no halo. */
@@ -80,18 +75,21 @@ enum class MassKind {
     neighbours, and D = diag(vertex masses). L = diag(e) S with S symmetric and positive definite
     on every mesh without boundary, so L is similar to a symmetric matrix with a positive spectrum
     (bounds: limit_mask_lowest()), and Chebyshev's iteration solves L x = b in a number of passes
-    known beforehand, without inner products. L^T x = b is L (e x) = e b.
+    known beforehand, without inner products. L^T x = b is L (e x) = e b. A factorization of S solves it,
+    too.
 
     CONSISTENT: M_ij = sum over faces of 2 m_f integral phi_i phi_j du dv, with m_f the sum over the
     face's corners of their mass over their valence; solved by conjugate gradients with Jacobi's
-    preconditioner or by a sparse Cholesky factorisation that every rank has whole.
+    preconditioner or by a factorization.
+
+    Factorizations are of the whole matrix, which every rank has.
 
     Fields have an entry for each vertex of the part; only owned entries are read and written. */
 class MassOperator {
  public:
   struct Settings {
     MassKind kind = MassKind::VERTEX;
-    bool direct = false;          ///< CONSISTENT: by Cholesky
+    bool direct = false;          ///< by Cholesky; not LUMPED
     double tolerance = 1.0e-10;   ///< of the residual, relative to the right-hand side
   };
 
@@ -165,14 +163,19 @@ class MassOperator {
   std::map<std::array<int, 3>, Eigen::MatrixXd> roots_;
   std::vector<FaceNoise> noise_;
   std::vector<double> diagonal_;
-  std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factor_;
+
+  std::unique_ptr<SparseCholesky> factor_;    // if direct: of S (VERTEX) or M (CONSISTENT)
+  VertexField whole_;                         // by vertex of the topology
 
   void build_rings(const Topology &topology);
   void build_rows(const Topology &topology, const std::vector<double> &masses,
                   const std::vector<uint64_t> &labels);
+  void chebyshev(const VertexField &b, VertexField &x);
   void chebyshev_pass(int first, int last, double omega, const VertexField &b,
                       const VertexField &x, VertexField &y) const;
-  void solve_direct(const VertexField &p, VertexField &v);
+  void factorize(const Topology &topology, const std::vector<double> &masses,
+                 std::vector<Eigen::Triplet<double>> &entries);
+  void solve_direct(const VertexField &b, VertexField &x);
   void conjugate_gradients(const VertexField &p, VertexField &v);
 };
 

@@ -33,10 +33,8 @@ MeshPart::MeshPart(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, int rings) 
     Pointers(lmp), groupbit(groupbit)
 {
   mesh.refresh();
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh.vertex_of_atom(i);
-    if (v >= 0 && atom->mask[i] & groupbit) vertices.push_back(v);
-  }
+  for (const auto &[i, v] : mesh.owned_points())
+    if (atom->mask[i] & groupbit) vertices.push_back(v);
   owned = static_cast<int>(vertices.size());
   order(mesh.topology());
   find_atoms(mesh);
@@ -57,9 +55,8 @@ bool MeshPart::find_atoms(DistributedMesh &mesh)
 {
   std::vector<int> atom_of_vertex(mesh.topology().num_vertices(), -1);
   int count = 0;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh.vertex_of_atom(i);
-    if (v < 0 || !(atom->mask[i] & groupbit)) continue;
+  for (const auto &[i, v] : mesh.owned_points()) {
+    if (!(atom->mask[i] & groupbit)) continue;
     atom_of_vertex[v] = i;
     ++count;
   }

@@ -96,9 +96,7 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
       for (int k = 0; k < 3; ++k) sum[2 + k] += integrals.vector_area[3 * (size_t) slot + k];
     }
   if (with_volume)
-    for (int i = 0; i < atom->nlocal; ++i) {
-      const int v = mesh->vertex_of_atom(i);
-      if (v < 0) continue;
+    for (const auto &[i, v] : mesh->owned_points()) {
       double unwrapped[3];
       domain->unmap(atom->x[i], atom->image[i], unwrapped);
       double *sum = &mine[mesh->topology().component(v) * WIDTH];

@@ -119,11 +119,8 @@ BendingMetric::Vectors MinMembrane::gather(const double *f)
   const int n = mesh->topology().num_vertices();
   BendingMetric::Vectors mine = BendingMetric::Vectors::Zero(n, 3), all(n, 3);
   mesh->refresh();
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh->vertex_of_atom(i);
-    if (v < 0) continue;
+  for (const auto &[i, v] : mesh->owned_points())
     for (int k = 0; k < 3; ++k) mine(v, k) = f[3 * i + k];
-  }
   MPI_Allreduce(mine.data(), all.data(), 3 * n, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
@@ -131,11 +128,8 @@ BendingMetric::Vectors MinMembrane::gather(const double *f)
 void MinMembrane::precondition(double *f)
 {
   const BendingMetric::Vectors solved = metric->solve(gather(f));
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh->vertex_of_atom(i);
-    if (v < 0) continue;
+  for (const auto &[i, v] : mesh->owned_points())
     for (int k = 0; k < 3; ++k) f[3 * i + k] = solved(v, k);
-  }
 }
 
 /* ----------------------------------------------------------------------
@@ -158,7 +152,7 @@ double MinMembrane::longest_step()
 
   double mine = 0.0, most;
   for (int i = 0; i < atom->nlocal; ++i)
-    if (mesh->vertex_of_atom(i) < 0)
+    if (mesh->vertex(atom->tag[i]) < 0)
       for (int k = 0; k < 3; ++k) mine = MAX(mine, std::fabs(h[3 * i + k]));
   MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, world);
 

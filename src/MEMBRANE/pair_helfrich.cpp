@@ -471,9 +471,7 @@ void PairHelfrich::share_volume_recoil()
   const auto &topology = mesh->topology();
   const auto &molecules = mesh->molecules();
   const auto &membranes = totals.membranes();
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh->vertex_of_atom(i);
-    if (v < 0) continue;
+  for (const auto &[i, v] : mesh->owned_points()) {
     const int c = topology.component(v), m = mesh->membrane(c);
     if (!membrane_volume[m]) continue;
     const HelfrichCoefficients &terms = *membrane_terms[m];

@@ -271,7 +271,7 @@ bool SRDGrid::strayed(const double *x) const
   return false;
 }
 
-void SRDGrid::wrap(double *x, imageint &image) const
+void SRDGrid::bring_back(double *x, imageint &image) const
 {
   double t[3];
   grid_coordinates(x, t);

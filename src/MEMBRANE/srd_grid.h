@@ -14,6 +14,7 @@
 #ifndef LMP_SRD_GRID_H
 #define LMP_SRD_GRID_H
 
+#include "domain.h"
 #include "pointers.h"
 
 #include <array>
@@ -84,7 +85,13 @@ class SRDGrid : protected Pointers {
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
   /// Back into the box in periodic directions in which this rank has all of it.
-  void wrap(double *x, imageint &image) const;
+  void wrap(double *x, imageint &image) const
+  {
+    const double *lo = domain->boxlo, *hi = domain->boxhi;
+    const bool inside = (x[0] >= lo[0]) & (x[0] < hi[0]) & (x[1] >= lo[1]) & (x[1] < hi[1]) &
+        (x[2] >= lo[2]) & (x[2] < hi[2]);
+    if (!inside || domain->triclinic) bring_back(x, image);
+  }
   /// Walls: the position at fractions f in [0, 1) of a cell, which may be outside of the box.
   void position_in_cell(int cell, const double *f, double *x) const;
   /// Whether a cell is partly outside of the box.
@@ -93,6 +100,8 @@ class SRDGrid : protected Pointers {
   double memory_usage() const;
 
  private:
+  void bring_back(double *x, imageint &image) const;
+
   double wanted;
   int n[3], all[3];             // divisions of the box; cells
   bool periodic[3], whole[3];    // whole: this rank's sub-domain spans the box

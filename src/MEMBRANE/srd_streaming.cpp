@@ -63,16 +63,19 @@ void SRDStreaming::place_walls()
 
 /* ---------------------------------------------------------------------- */
 
-void SRDStreaming::stream(const SRDSolvent &solvent, double dt)
+void SRDStreaming::stream(const SRDSolvent &solvent, double dt, const std::vector<char> *held,
+                          std::vector<int> *turned)
 {
   if (solvent.count() == 0) return;
   double *x = atom->x[0], *v = atom->v[0];
 
   if (walls.any()) {
     place_walls();
-    for (int i = solvent.first(); i < solvent.last(); ++i)
-      if (solvent.has(i))
-        walls.stream(x + 3 * (size_t) i, v + 3 * (size_t) i, solvent.mass()[i], dt);
+    for (int i = solvent.first(); i < solvent.last(); ++i) {
+      if (!solvent.has(i) || (held && (*held)[i])) continue;
+      if (walls.stream(x + 3 * (size_t) i, v + 3 * (size_t) i, solvent.mass()[i], dt) && turned)
+        turned->push_back(i);
+    }
     return;
   }
   if (solvent.dense()) {

@@ -24,7 +24,6 @@
 #include "error.h"
 #include "force.h"
 #include "membrane_random.h"
-#include "memory.h"
 #include "update.h"
 
 #include <Eigen/Geometry>
@@ -34,6 +33,7 @@
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
+using Membrane_NS::ApproachList;
 using Membrane_NS::BoxWalls;
 using Membrane_NS::CollisionEvents;
 using Membrane_NS::MovingPoint;
@@ -47,11 +47,15 @@ using Membrane_NS::SurfaceImpulse;
 static constexpr double CONTACT = 1.0e-10;
 // the grid is built anew when vertices have moved so far; of distances beyond this from its cubes, it
 // knows less
-static constexpr double SKIN = 0.3, REACH = 0.2;
+static constexpr double SKIN = 0.3, REACH = 0.45;
 // vertices may be deflected so far in one step, points so far beyond where their speed takes them;
 // looked for in the first attempt, and at most
-static constexpr double FIRST_SLACK = 0.01, MOST_SLACK = 0.15;
+static constexpr double FIRST_SLACK = 0.004, MOST_SLACK = 0.15;
+// and what one step needs is likely too much for others
+static constexpr double LESS_SLACK = 0.99;
 static constexpr double SPACING = 0.7;
+// of the list of solvent that comes near, to begin with
+static constexpr double MARGIN = 0.2;
 
 // of the random numbers that say with which side a point mass collides, and of thermal velocities of
 // those that are held
@@ -66,26 +70,8 @@ SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
     Pointers(lmp), motion(lmp, settings.membranes, settings.level, settings.user),
     regions(lmp, motion, settings.user), tally{}, settings(settings), built_epoch(-1),
     everywhere(settings.control || settings.level > 0),
-    vertex_slack(0.0), point_slack(0.0), clearance(nullptr), travelled(0.0), fastest(0.0),
-    lattice(Eigen::Matrix3d::Zero()), vertices(nullptr)
+    vertex_slack(0.0), point_slack(0.0), vertices(nullptr)
 {
-}
-
-SurfaceObstacle::~SurfaceObstacle()
-{
-  memory->destroy(clearance);
-}
-
-void SurfaceObstacle::grow(int nmax)
-{
-  regions.grow(nmax);
-  memory->grow(clearance, nmax, "srd/mesh:clearance");
-}
-
-void SurfaceObstacle::copy(int i, int j)
-{
-  regions.region[j] = regions.region[i];
-  clearance[j] = clearance[i];
 }
 
 void SurfaceObstacle::init()
@@ -111,7 +97,7 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
   }
   events = CollisionEvents(rule);
   grid = {};
-  origins.clear();
+  approaching = ApproachList(MARGIN * motion.surface_edge());
   vertex_slack = point_slack = FIRST_SLACK * motion.edge();
 }
 
@@ -119,70 +105,53 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
    the exact motion of solvent and point masses over dt, see CollisionEvents
 ------------------------------------------------------------------------- */
 
-void SurfaceObstacle::stream(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+void SurfaceObstacle::stream(const SRDSolvent &solvent, SRDStreaming &streaming, double dt,
+                             double horizon)
 {
+  const Flight flight = {solvent, streaming, dt, horizon};
   vertices = &motion.paths();
-  follow_surface();
-  prepare_grid(solvent, dt);
-  int beyond = !move_or_note(solvent, walls, dt), any;
+  if (!grid.serves(*vertices, motion.lattice_now()) ||
+      (comm->nprocs > 1 && built_epoch != motion.epoch()))
+    build_grid(flight);
+  int beyond = !gather(flight), any;
   MPI_Allreduce(&beyond, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) {
-    build_grid(solvent, dt);
-    look_again(solvent, walls, dt);
+    build_grid(flight);
+    if (!gather(flight)) report_escape();
   }
   from_outside.clear();
   told.clear();
-  run(solvent, walls, dt);
+  run(flight);
   if (comm->nprocs > 1)
-    while (exchange()) run(solvent, walls, dt);
-  finish(walls, dt);
+    while (exchange()) run(flight);
+  move(flight);
+  finish(flight);
+  vertex_slack = std::max(LESS_SLACK * vertex_slack, FIRST_SLACK * motion.edge());
+  point_slack = std::max(LESS_SLACK * point_slack, FIRST_SLACK * motion.edge());
 }
 
-/* ----------------------------------------------------------------------
-   how far vertices have come since the last time, however they did; in a box that changes, atoms move
-   along in ways not known here
-------------------------------------------------------------------------- */
-
-void SurfaceObstacle::follow_surface()
+void SurfaceObstacle::report_escape()
 {
-  double most = 0.0, fastest_squared = 0.0;
-  const bool begins = origins.size() != vertices->size() || lattice != motion.lattice_now();
-  if (begins) {
-    std::fill_n(clearance, atom->nlocal, -1.0);
-    lattice = motion.lattice_now();
-    origins.assign(vertices->size(), Vector3d::Zero());
-    travelled = 0.0;
-  }
-  for (size_t v = 0; v < vertices->size(); ++v) {
-    const MovingPoint &path = (*vertices)[v].path;
-    most = std::max(most, (path.origin - origins[v]).squaredNorm());
-    fastest_squared = std::max(fastest_squared, path.velocity.squaredNorm());
-    origins[v] = path.origin;
-  }
-  if (!begins) travelled += std::sqrt(most);
-  fastest = std::sqrt(fastest_squared);
+  error->one(FLERR,
+             "{}: solvent moves further than {:.6g} in one step, or has left the box: use a shorter "
+             "timestep",
+             settings.user, settings.stray);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceObstacle::prepare_grid(const SRDSolvent &solvent, double dt)
-{
-  if (!grid.serves(*vertices, motion.lattice_now()) ||
-      (comm->nprocs > 1 && built_epoch != motion.epoch()))
-    build_grid(solvent, dt);
-}
-
 // where this rank's solvent is, and may come to be before the grid is built anew
 
-void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
+void SurfaceObstacle::build_grid(const Flight &flight)
 {
+  const SRDSolvent &solvent = flight.solvent;
   Vector3d lo = Vector3d::Map(domain->sublo), hi = Vector3d::Map(domain->subhi);
   if (domain->triclinic) domain->bbox(domain->sublo_lamda, domain->subhi_lamda, lo.data(), hi.data());
   double square = 0.0;
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!solvent.has(i)) continue;
     const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
-    const Vector3d room = Vector3d::Constant(dt * v.norm());
+    const Vector3d room = Vector3d::Constant(flight.dt * v.norm());
     lo = lo.cwiseMin(x - room);
     hi = hi.cwiseMax(x + room);
     square += v.squaredNorm();
@@ -190,13 +159,14 @@ void SurfaceObstacle::build_grid(const SRDSolvent &solvent, double dt)
   const double edge = motion.surface_edge();
   SurfaceGrid::Settings s;
   s.skin = SKIN * edge;
-  s.reach = REACH * edge + FAST * dt * std::sqrt(square / std::max(1, solvent.count()));
+  s.reach = REACH * edge + FAST * flight.dt * std::sqrt(square / std::max(1, solvent.count()));
   s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
   grid.build(motion.surface(), *vertices, motion.lattice_now(), motion.periodic(), lo - margin,
              hi + margin, s);
   built_epoch = motion.epoch();
+  approaching.clear();
   if (comm->nprocs > 1 && !everywhere) find_shared();
 }
 
@@ -216,105 +186,86 @@ void SurfaceObstacle::find_shared()
 }
 
 /* ----------------------------------------------------------------------
-   solvent that cannot meet a triangle just moves, and what may is noted; false if some is beyond the
-   grid. Nothing can be taken back from walls: with them vertices are looked for as far as they may be.
+   solvent that may meet triangles in this step is noted, with these; false if some is beyond the grid
 ------------------------------------------------------------------------- */
 
-bool SurfaceObstacle::move_or_note(const SRDSolvent &solvent, BoxWalls &walls, double dt)
+bool SurfaceObstacle::gather(const Flight &flight)
 {
-  const bool dense = solvent.dense(), have_walls = walls.any();
-  if (have_walls) vertex_slack = most_slack();
+  const SRDSolvent &solvent = flight.solvent;
+  const BoxWalls &walls = flight.streaming.walls;
+  const bool have_walls = walls.any();
   near.clear();
-  taken_back.clear();
-  grid.begin(motion.surface(), *vertices, motion.lattice_now(), dt, vertex_slack,
+  if (have_walls) held.assign(atom->nlocal, 0);
+  grid.begin(motion.surface(), *vertices, motion.lattice_now(), flight.dt, vertex_slack,
              motion.lattice_rate());
-  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
+  events.begin(*vertices, grid.triangles(), flight.dt, vertex_slack, walls, motion.middle());
   if (solvent.count() == 0) return true;
+  if (!approaching.serves(grid, *vertices, flight.dt)) list_approaching(flight);
 
-  double *x = atom->x[0];
-  const double *v = atom->v[0];
   bool all_found = true;
-  const double surface_comes = travelled + dt * fastest + vertex_slack;
+  const double *masses = solvent.mass();
+  auto fetch = [&](int i) {    // from all over the memory, all at once
+    __builtin_prefetch(atom->x[0] + 3 * (size_t) i);
+    __builtin_prefetch(atom->v[0] + 3 * (size_t) i);
+    __builtin_prefetch(masses + i);
+    __builtin_prefetch(atom->tag + i);
+    __builtin_prefetch(atom->image + i);
+    __builtin_prefetch(regions.region + i);
+  };
+  auto take = [&](int i, const std::vector<int> *triangles) {
+    if (triangles)
+      note(i, *triangles, flight);
+    else
+      all_found = find_and_note(i, flight) && all_found;
+  };
+  approaching.for_each(grid, flight.dt, point_slack, fetch, take);
+  if (!have_walls) return all_found;
+
+  // who meets a wall may then fly anywhere
+
   for (int i = solvent.first(); i < solvent.last(); ++i) {
-    if (!dense && !solvent.has(i)) continue;
-    double *xi = x + 3 * (size_t) i;
-    const double *vi = v + 3 * (size_t) i;
-    const double speed = std::sqrt(vi[0] * vi[0] + vi[1] * vi[1] + vi[2] * vi[2]);
-    clearance[i] -= dt * speed;
-    if (!(clearance[i] > surface_comes)) {
-      const Near here = {i, {Vector3d::Map(xi), Vector3d::Map(vi)}, speed};
-      const bool inside = look(here, solvent, dt);
-      all_found = all_found && inside;
-      if (!inside || !found.empty()) {
-        near.push_back(here);
-        continue;
-      }
-    }
-    if (!have_walls)
-      for (int k = 0; k < 3; ++k) xi[k] += dt * vi[k];
-    else if (walls.stream(xi, atom->v[i], solvent.mass()[i], dt))
-      forget(i);    // walls that move make it faster
+    if (!solvent.has(i) || held[i]) continue;
+    int face;
+    walls.first_hit(atom->x[i], atom->v[i], flight.dt, face);
+    if (face >= 0) all_found = find_and_note(i, flight) && all_found;
   }
   return all_found;
 }
 
-/* ----------------------------------------------------------------------
-   which triangles an atom may meet; false if it is beyond the grid
-------------------------------------------------------------------------- */
-
-bool SurfaceObstacle::look(const Near &near, const SRDSolvent &solvent, double dt)
+void SurfaceObstacle::list_approaching(const Flight &flight)
 {
-  const int i = near.atom;
-  const double reach = dt * near.speed + point_slack;
-  double gap;
-  if (!grid.find(near.path.origin, reach, found, gap)) return false;
-  clearance[i] = travelled + gap - dt * near.speed;
-  if (found.empty()) return true;
-  events.add_point(near.path, 1.0 / solvent.mass()[i], atom->tag[i], reach);
-  if (forces_on_solvent)
-    events.accelerate_point(force->ftm2v / solvent.mass()[i] * Vector3d::Map(atom->f[i]));
-  for (int t : found) {
-    const auto &image = grid.images()[t];
-    events.add_pair(t, regions.side(regions.region[i], atom->image[i],
-                                    motion.component(image.face), image.lattice));
-  }
+  const SRDSolvent &solvent = flight.solvent;
+  approaching.begin(grid, *vertices, atom->nlocal, std::max(flight.dt, flight.horizon),
+                    std::max(flight.dt, update->dt), 2.0 * point_slack);
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) approaching.offer(grid, i, atom->x[i], atom->v[i]);
+  approaching.end(grid);
+}
+
+// false if it is beyond the grid
+
+bool SurfaceObstacle::find_and_note(int i, const Flight &flight)
+{
+  const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
+  if (!grid.find(x, flight.dt * v.norm() + point_slack, found)) return false;
+  note(i, found, flight);
   return true;
 }
 
-/* ----------------------------------------------------------------------
-   for another grid, or more slack
-------------------------------------------------------------------------- */
-
-void SurfaceObstacle::look_again(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
+void SurfaceObstacle::note(int i, const std::vector<int> &triangles, const Flight &flight)
 {
-  grid.begin(motion.surface(), *vertices, motion.lattice_now(), dt, vertex_slack,
-             motion.lattice_rate());
-  events.begin(*vertices, grid.triangles(), dt, vertex_slack, walls, motion.middle());
-  for (const Near &n : near) {
-    if (!look(n, solvent, dt))
-      error->one(FLERR,
-                 "{}: solvent moves further than {:.6g} in one step, or has left the box: use a shorter "
-                 "timestep",
-                 settings.user, settings.stray);
-    if (found.empty())
-      events.add_point(n.path, 1.0 / solvent.mass()[n.atom], atom->tag[n.atom], INFINITY);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   vertices are deflected further than foreseen: what moved already may meet them after all
-------------------------------------------------------------------------- */
-
-void SurfaceObstacle::take_back(const SRDSolvent &solvent, double dt)
-{
-  std::vector<char> noted(atom->nlocal, 0);
-  for (const Near &n : near) noted[n.atom] = 1;
-  const double surface_comes = travelled + dt * fastest + vertex_slack;
-  for (int i = solvent.first(); i < solvent.last(); ++i) {
-    if (noted[i] || !solvent.has(i) || clearance[i] > surface_comes) continue;
-    const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
-    taken_back.push_back({near.size(), x});
-    near.push_back({i, {x - dt * v, v}, v.norm()});
+  if (triangles.empty()) return;
+  const MovingPoint path = {Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i])};
+  near.push_back({i, path, false});
+  if (!held.empty()) held[i] = 1;
+  const double mass = flight.solvent.mass()[i];
+  events.add_point(path, 1.0 / mass, atom->tag[i], flight.dt * path.velocity.norm() + point_slack);
+  if (forces_on_solvent)
+    events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
+  for (int t : triangles) {
+    const auto &image = grid.images()[t];
+    events.add_pair(t, regions.side(regions.region[i], atom->image[i],
+                                    motion.component(image.face), image.lattice));
   }
 }
 
@@ -327,22 +278,21 @@ double SurfaceObstacle::most_slack() const
    this rank's collisions, for impulses from others as far as they are known
 ------------------------------------------------------------------------- */
 
-void SurfaceObstacle::run(const SRDSolvent &solvent, const BoxWalls &walls, double dt)
+void SurfaceObstacle::run(const Flight &flight)
 {
   while (true) {
     const auto outcome = events.run(from_outside);
     if (outcome == CollisionEvents::Outcome::DONE) return;
     if (outcome == CollisionEvents::Outcome::POINT_STRAYED)
       point_slack *= 2.0;
-    else if (vertex_slack < most_slack()) {
+    else if (vertex_slack < most_slack())
       vertex_slack = std::min(2.0 * vertex_slack, most_slack());
-      take_back(solvent, dt);
-    } else
+    else
       error->one(FLERR,
                  "{}: solvent deflects the surface by more than {} of an edge in one step: use a "
                  "shorter timestep or heavier control points",
                  settings.user, MOST_SLACK);
-    look_again(solvent, walls, dt);
+    if (!gather(flight)) report_escape();
   }
 }
 
@@ -382,28 +332,49 @@ bool SurfaceObstacle::exchange()
   return true;
 }
 
+/* ----------------------------------------------------------------------
+   all solvent to the end of its way; who has turned on it is looked at anew
+------------------------------------------------------------------------- */
+
+void SurfaceObstacle::move(const Flight &flight)
+{
+  const bool have_walls = flight.streaming.walls.any();
+  for (size_t n = 0; n < near.size(); ++n) {
+    const MovingPoint &path = events.path(n);
+    near[n].turned =
+        path.velocity != near[n].path.velocity || path.origin != near[n].path.origin;
+    if (have_walls) held[near[n].atom] = near[n].turned;
+  }
+  turned_by_walls.clear();
+  flight.streaming.stream(flight.solvent, flight.dt, &held, &turned_by_walls);
+  approaching.pass(flight.dt);
+  for (size_t n = 0; n < near.size(); ++n) {
+    if (!near[n].turned) continue;
+    const int i = near[n].atom;
+    Vector3d::Map(atom->x[i]) = events.path(n).at(flight.dt);
+    Vector3d::Map(atom->v[i]) = events.path(n).velocity;
+  }
+  if (approaching.left() == 0.0) return;
+  auto look_anew = [&](int i) {
+    approaching.add(grid, i, Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i]));
+  };
+  for (const Near &n : near)
+    if (n.turned) look_anew(n.atom);
+  for (int i : turned_by_walls) look_anew(i);
+}
+
 /* ---------------------------------------------------------------------- */
 
-void SurfaceObstacle::finish(BoxWalls &walls, double dt)
+void SurfaceObstacle::finish(const Flight &flight)
 {
-  for (size_t n = 0; n < near.size(); ++n) {
-    const int i = near[n].atom;
-    const MovingPoint &path = events.path(n);
-    Vector3d::Map(atom->x[i]) = path.at(dt);
-    Vector3d::Map(atom->v[i]) = path.velocity;
-    if (path.velocity != near[n].path.velocity) forget(i);    // it may be faster, from walls, too
-  }
-  for (const TakenBack &t : taken_back)    // to the last bit
-    if (events.bounces(t.number) == 0) Vector3d::Map(atom->x[near[t.number].atom]) = t.end;
-  Vector3d::Map(walls.impulse) += events.wall_impulse();
-
+  Vector3d::Map(flight.streaming.walls.impulse) += events.wall_impulse();
   tally[COLLISIONS] += events.impulses().size();
   tally[ABANDONED] += events.abandoned();
   tally[OUTER] += events.normal_impulse()[0];
   tally[INNER] += events.normal_impulse()[1];
   for (int k = 0; k < 3; ++k) tally[HANDED + k] += events.impulse()[k];
 
-  motion.pass(dt);
+  motion.pass(flight.dt);
   int mine = !events.touched().empty(), any;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   if (any) motion.apply(events.changes());
@@ -512,7 +483,7 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
       x = nearest + sign * distance * motion.edge() * normal;
       if (!regions.belongs(x.data(), atom->image[i], region)) continue;
       Vector3d::Map(atom->x[i]) = x;
-      forget(i);
+      forget();
       const double speed = sign * Vector3d::Map(atom->v[i]).dot(normal);
       if (speed < 0.0) Vector3d::Map(atom->v[i]) -= 2.0 * sign * speed * normal;
       return true;
@@ -533,7 +504,7 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
         x[k] = domain->sublo[k] + s[k] * (domain->subhi[k] - domain->sublo[k]);
     if (!regions.belongs(x.data(), atom->image[i], region)) continue;
     Vector3d::Map(atom->x[i]) = x;
-    forget(i);
+    forget();
     return true;
   }
   return false;
@@ -542,6 +513,6 @@ bool SurfaceObstacle::rescue(const SurfaceRegions::Crossing &crossing, const Vec
 double SurfaceObstacle::memory_usage() const
 {
   return motion.memory_usage() + regions.memory_usage() + grid.memory_usage() +
-      sizeof(double) * (double) atom->nmax +
+      approaching.memory_usage() +
       (inverse_mask ? inverse_mask->memory_usage() : 0.0);
 }

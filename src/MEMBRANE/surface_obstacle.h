@@ -14,12 +14,13 @@
 #ifndef LMP_SURFACE_OBSTACLE_H
 #define LMP_SURFACE_OBSTACLE_H
 
-#include "membrane_box_walls.h"
+#include "membrane_approach_list.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
 #include "membrane_inverse_mask.h"
 #include "srd_cells.h"
 #include "srd_solvent.h"
+#include "srd_streaming.h"
 #include "surface_motion.h"
 #include "surface_regions.h"
 
@@ -48,7 +49,6 @@ class SurfaceObstacle : protected Pointers {
     std::string user;           ///< named in errors
   };
   SurfaceObstacle(class LAMMPS *, const Settings &);
-  ~SurfaceObstacle() override;
 
   SurfaceMotion motion;
   SurfaceRegions regions;
@@ -61,8 +61,13 @@ class SurfaceObstacle : protected Pointers {
   void setup(const SRDSolvent &);
   /// From post_integrate(), after control points have moved for the time dt.
   void begin_step(double dt) { motion.begin_step(dt); }
-  /// Solvent moves for the time dt, the step or the next part of it.
-  void stream(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
+  /// Solvent moves for the time dt, the step or the next part of it. horizon: from now on its velocities
+  /// last so long, but for what it meets and kicks.
+  void stream(const SRDSolvent &, SRDStreaming &, double dt, double horizon);
+  /// Call when solvent has other velocities, or places, or numbers: then its way is looked at anew.
+  void forget() { approaching.clear(); }
+  /// Forces have changed velocities by up to this.
+  void kicked(double change) { approaching.bend(change); }
   /** Around a collision in cells between two parts of a step, if the surface does not slip: the point
       masses take part in it, each with the solvent on one of its sides, drawn anew for each step; what
       is held, with thermal velocities of kT. */
@@ -75,10 +80,8 @@ class SurfaceObstacle : protected Pointers {
 
   // === Per-atom data, as of a fix
 
-  void grow(int nmax);
-  void copy(int i, int j);
-  /// Of a new atom, or one from another rank.
-  void forget(int i) { clearance[i] = -1.0; }
+  void grow(int nmax) { regions.grow(nmax); }
+  void copy(int i, int j) { regions.region[j] = regions.region[i]; }
 
   // === What has happened so far
 
@@ -97,43 +100,38 @@ class SurfaceObstacle : protected Pointers {
   bigint built_epoch;
   bool everywhere;             // impulses act far from where they are, too
   std::vector<char> shared;    // if not: vertices that atoms of several ranks may touch
-  struct Near {                // an atom that may meet triangles in this step
+  Membrane_NS::ApproachList approaching;    // of local atoms
+  struct Near {                // an atom that may meet triangles in this step, and does if turned
     int atom;
     Membrane_NS::MovingPoint path;
-    double speed;
+    bool turned;
   };
   std::vector<Near> near;
-  struct TakenBack {           // one that had moved already
-    size_t number;             // in near
-    Eigen::Vector3d end;       // where to
-  };
-  std::vector<TakenBack> taken_back;
-  std::vector<int> found;
+  std::vector<char> held;      // with walls, by local atom: it is near, or turned
+  std::vector<int> found, turned_by_walls;
   double vertex_slack, point_slack;
 
-  /* An atom that was at a distance from the surface cannot meet it before the two together have come
-     so far: clearance, by local atom, is that distance, less what the atom has travelled since, plus
-     what vertices had at most, `travelled`. Negative if not known. */
-  double *clearance;
-  double travelled, fastest;    // fastest: vertex in this step
-  std::vector<Eigen::Vector3d> origins;    // of vertices at the start of the last stream()
-  Eigen::Matrix3d lattice;
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;
   Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
   std::vector<Membrane_NS::SurfaceImpulse> told, from_outside;    // by all ranks; by others
 
-  void follow_surface();
-  void prepare_grid(const SRDSolvent &, double dt);
-  void build_grid(const SRDSolvent &, double dt);
+  struct Flight {              // what stream() does
+    const SRDSolvent &solvent;
+    SRDStreaming &streaming;
+    double dt, horizon;
+  };
+  void build_grid(const Flight &);
   void find_shared();
-  bool move_or_note(const SRDSolvent &, Membrane_NS::BoxWalls &walls, double dt);
-  bool look(const Near &, const SRDSolvent &, double dt);
-  void look_again(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
-  void take_back(const SRDSolvent &, double dt);
+  bool gather(const Flight &);
+  void list_approaching(const Flight &);
+  bool find_and_note(int atom, const Flight &);
+  void note(int atom, const std::vector<int> &triangles, const Flight &);
+  void run(const Flight &);
   double most_slack() const;
-  void run(const SRDSolvent &, const Membrane_NS::BoxWalls &walls, double dt);
   bool exchange();
-  void finish(Membrane_NS::BoxWalls &walls, double dt);
+  void move(const Flight &);
+  void finish(const Flight &);
+  [[noreturn]] void report_escape();
   Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &, Eigen::Vector3d &normal);
   bool rescue(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest,
               const Eigen::Vector3d &normal);

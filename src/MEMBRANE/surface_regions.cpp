@@ -134,13 +134,18 @@ void SurfaceRegions::assign(const SRDSolvent &solvent)
 
   levels.clear();
   inside.clear();
+  odd.clear();
   for (auto &[key, number] : numbers) {
     number = static_cast<int>(inside.size());
     levels.insert(levels.end(), key.begin(), key.end());
     bool is_in = false;
-    for (int s = 0; s < num_surfaces; ++s)
+    int sum = 0;
+    for (int s = 0; s < num_surfaces; ++s) {
       is_in = is_in || (motion.mesh().is_closed(components[s]) && key[s] != 0);
+      sum += key[s];
+    }
     inside.push_back(is_in);
+    odd.push_back(sum & 1);
   }
   std::fill_n(region, atom->nlocal, 0);
   for (int i = solvent.first(); i < solvent.last(); ++i)
@@ -148,16 +153,6 @@ void SurfaceRegions::assign(const SRDSolvent &solvent)
 }
 
 /* ---------------------------------------------------------------------- */
-
-int SurfaceRegions::parity(int r, imageint image) const
-{
-  int sum = 0;
-  for (int s = 0; s < num_surfaces; ++s) {
-    const SurfaceSide &side = sides[motion.components()[s]];
-    sum += levels[r * num_surfaces + s] - side.degree() * flag(image, side.axis());
-  }
-  return sum & 1;
-}
 
 bool SurfaceRegions::belongs(const double *x, imageint image, int r) const
 {

@@ -52,7 +52,13 @@ class SurfaceRegions : protected Pointers {
   bool is_inside(int region) const { return inside[region] != 0; }
   /** Even and odd numbers tell the two sides of a surface apart wherever the two are close. In the
       frame of the box: an atom that is wrapped changes its parity if flips() says so. */
-  int parity(int region, imageint image) const;
+  int parity(int region, imageint image) const
+  {
+    int sum = odd[region];
+    for (int k = 0; k < 3; ++k)
+      if (flip[k]) sum += flag(image, k);
+    return sum & 1;
+  }
   bool flips(int direction) const { return flip[direction] != 0; }
 
   /// By local atom; grow_arrays() and the like of a fix.
@@ -78,8 +84,9 @@ class SurfaceRegions : protected Pointers {
   int num_surfaces;
   std::vector<int> surface_of;                    // of a component: its place among those of the group
   std::vector<Membrane_NS::SurfaceSide> sides;    // by component
-  std::vector<int> levels, inside;                // [region][surface]
-  int flip[3];
+  std::vector<int> levels;                        // [region][surface]
+  std::vector<char> inside, odd;                  // by region; odd: the sum of its levels is
+  int flip[3];                                    // by direction: the sum of the surfaces' degrees is odd
 
   static int flag(imageint image, int k)
   {

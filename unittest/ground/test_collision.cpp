@@ -15,6 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
+#include "membrane_approach_list.h"
 #include "membrane_collision.h"
 #include "membrane_collision_events.h"
 #include "membrane_collision_grid.h"
@@ -74,7 +75,9 @@ struct Gas {
   double point_mass = 1.0, time_step = 0.01, thickness = 0.1;
   CollisionEvents events;
   SurfaceGrid grid;
-  long collisions = 0, strayed = 0;
+  static constexpr int HORIZON = 7;    // steps
+  ApproachList list{0.02};
+  long collisions = 0, strayed = 0, lists = 0;
 
   Gas(TriangleMesh m, double vertex_mass, bool no_slip = false, int n = 1) : mesh(std::move(m))
   {
@@ -178,52 +181,48 @@ struct Gas {
     grid.build(surface, vertices, mesh.lattice, mesh.periodic, lo, hi, settings);
   }
 
-  // from the surface, of the faces that the grid knows
-
-  double distance(const Vector3d &x) const
-  {
-    double least = INFINITY;
-    for (const SurfaceTriangle &t : grid.triangles()) {
-      std::array<Vector3d, 3> c;
-      for (int k = 0; k < 3; ++k) c[k] = vertices[t.vertex[k]].path.origin + t.shift[k];
-      const auto b = nearest_on_triangle(x, c[0], c[1], c[2]);
-      least = std::min(least, (b[0] * c[0] + b[1] * c[1] + b[2] * c[2] - x).norm());
-    }
-    return least;
-  }
-
   // one step; `wrap` brings points back into the box as LAMMPS does now and then
 
   void stream(const SurfaceSide &where, int axis = 2)
   {
     const SurfaceGrid::Settings settings{thickness, 3.0 * time_step + thickness, 2.0 * thickness};
-    if (!grid.serves(vertices, mesh.lattice)) build(settings);
+    if (!grid.serves(vertices, mesh.lattice)) {
+      build(settings);
+      list.clear();
+    }
     double slack = 0.1 * thickness, more = slack;
-    std::vector<int> found, near, index;
+    std::vector<int> found, near;
     auto outcome = CollisionEvents::Outcome::VERTEX_STRAYED;
     for (int attempt = 0; outcome != CollisionEvents::Outcome::DONE; ++attempt) {
       ASSERT_LT(attempt, 20);
       grid.begin(surface, vertices, mesh.lattice, time_step, slack);
       events.begin(vertices, grid.triangles(), time_step, slack);
       near.clear();
+      if (!list.serves(grid, vertices, time_step)) {
+        list.begin(grid, vertices, points.size(), HORIZON * time_step, time_step, 2.0 * more);
+        for (size_t i = 0; i < points.size(); ++i)
+          list.offer(grid, i, points[i].origin.data(), points[i].velocity.data());
+        list.end(grid);
+        ++lists;
+      }
       bool all_found = true;
-      for (size_t i = 0; i < points.size(); ++i) {
+      auto take = [&](int i, const std::vector<int> *triangles) {
         const MovingPoint &p = points[i];
         const double step = time_step * p.velocity.norm();
-        double gap;
-        all_found = grid.find(p.origin, step + more, found, gap);
-        if (!all_found) break;
-        if (i % 1024 == 0) {
-          ASSERT_GE(distance(p.origin), gap - 1.0e-12);
-        }
-        if (found.empty()) continue;
+        if (triangles)
+          found = *triangles;
+        else if (!grid.find(p.origin, step + more, found))
+          all_found = false;
+        if (found.empty()) return;
         near.push_back(i);
         events.add_point(p, 1.0 / point_mass, i, step + more);
         for (int t : found)
           events.add_pair(t, where.side(level[i], grid.images()[t].lattice[axis]));
-      }
+      };
+      list.for_each(grid, time_step, more, [](int) {}, take);
       if (!all_found) {
         build(settings);
+        list.clear();
         continue;
       }
       outcome = events.run();
@@ -234,13 +233,17 @@ struct Gas {
     ASSERT_EQ(events.abandoned(), 0);
     collisions += events.impulses().size();
 
-    std::vector<char> done(points.size(), 0);
+    std::vector<char> turned(points.size(), 0);
+    list.pass(time_step);
     for (size_t n = 0; n < near.size(); ++n) {
-      points[near[n]] = {events.path(n).at(time_step), events.path(n).velocity};
-      done[near[n]] = 1;
+      const int i = near[n];
+      turned[i] = events.path(n).velocity != points[i].velocity;
+      if (!turned[i]) continue;
+      points[i] = {events.path(n).at(time_step), events.path(n).velocity};
+      list.add(grid, i, points[i].origin, points[i].velocity);
     }
     for (size_t i = 0; i < points.size(); ++i)
-      if (!done[i]) points[i].origin = points[i].at(time_step);
+      if (!turned[i]) points[i].origin = points[i].at(time_step);
     for (SurfaceVertex &v : vertices) v.path.origin = v.path.at(time_step);
     for (int v : events.touched()) {
       vertices[v].path.velocity += events.changes()[v].velocity;
@@ -489,6 +492,7 @@ static void expect_reversible(int n)
   auto turn_back = [&] {
     for (MovingPoint &p : gas.points) p.velocity *= -1;
     for (SurfaceVertex &v : gas.vertices) v.path.velocity *= -1;
+    gas.list.clear();
   };
   for (int step = 0; step < 5; ++step) gas.stream(where);
   const long there = gas.collisions;
@@ -588,15 +592,19 @@ TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
     for (int step = 0; step < 300; ++step) {
       gas.stream(where);
       tie(gas, mesh, 1600.0);
-      for (MovingPoint &p : gas.points) {    // into the box
-        const Vector3d s = gas.fraction(p.origin);
-        p.origin -= mesh.lattice * Vector3d(std::floor(s[0]), std::floor(s[1]), std::floor(s[2]));
-        if (step % 10 == 0) p.velocity = random.normal(1.0);
+      if (step % 10 == 0) {
+        for (MovingPoint &p : gas.points) {    // into the box
+          const Vector3d s = gas.fraction(p.origin);
+          p.origin -= mesh.lattice * Vector3d(std::floor(s[0]), std::floor(s[1]), std::floor(s[2]));
+          p.velocity = random.normal(1.0);
+        }
+        gas.list.clear();
       }
       if (step % 20 == 19) leaks += gas.crossings();
     }
     EXPECT_EQ(leaks, 0);
     EXPECT_GT(gas.collisions, 5000);
+    EXPECT_LT(gas.lists, 150);    // of 300 steps: 10 take two at least
   }
 }
 
@@ -618,14 +626,97 @@ TEST(CollisionEvents, NothingLeaksThroughAFinerVesicle)
     for (int step = 0; step < 100; ++step) {
       gas.stream(where);
       tie(gas, mesh, 1600.0);
-      for (MovingPoint &p : gas.points)    // back to where the surface is
+      for (size_t i = 0; i < gas.points.size(); ++i) {    // back to where the surface is
+        MovingPoint &p = gas.points[i];
+        const Vector3d before = p.velocity;
         for (int k = 0; k < 3; ++k)
           if (std::fabs(p.origin[k]) > 1.2) p.velocity[k] = -std::copysign(p.velocity[k], p.origin[k]);
+        if (p.velocity != before) gas.list.add(gas.grid, i, p.origin, p.velocity);
+      }
       if (step % 20 == 19) leaks += gas.crossings();
     }
     EXPECT_EQ(leaks, 0);
     EXPECT_GT(gas.collisions, 1000);
   }
+}
+
+TEST(ApproachList, WhoIsNotListedMeetsNothing)
+{
+  // points fly through a surface that is shaken, are kicked a little, and now and then turned, while the
+  // surface also drifts as a whole; who meets a triangle must be among those that the list takes
+
+  Random random(14);
+  const TriangleMesh mesh = icosphere(2, 1.0);
+  const double dt = 0.01, kick = 0.05;
+  Gas gas(mesh, 1.0);
+  gas.thickness = 0.3;
+  for (int i = 0; i < 4000; ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
+  gas.build({0.15, 0.1, 0.2});
+  ApproachList list(0.02);
+  const TriangleCollision collision;
+  const int steps = 60, horizon = 8;
+  int hits = 0, missed = 0, taken = 0, listed = 0, lists = 0, incomplete = 0;
+  for (int step = 0; step < steps; ++step) {
+    gas.shake(0.3, random);
+    for (SurfaceVertex &v : gas.vertices) v.path.velocity[0] += 0.5;
+    if (!gas.grid.serves(gas.vertices, mesh.lattice)) {
+      gas.build({0.15, 0.1, 0.2});
+      list.clear();
+    }
+    gas.grid.begin(gas.surface, gas.vertices, mesh.lattice, dt, 0.002);
+    if (!list.serves(gas.grid, gas.vertices, dt)) {
+      list.begin(gas.grid, gas.vertices, gas.points.size(), horizon * dt, dt, 0.01);
+      for (size_t i = 0; i < gas.points.size(); ++i)
+        list.offer(gas.grid, i, gas.points[i].origin.data(), gas.points[i].velocity.data());
+      list.end(gas.grid);
+      ++lists;
+    }
+    std::vector<char> noted(gas.points.size(), 0);
+    listed += list.count();
+    // who is taken has all triangles that come within its way and some slack
+
+    std::vector<int> all;
+    auto take = [&](int i, const std::vector<int> *triangles) {
+      ++taken, noted[i] = 1;
+      if (!triangles || i % 8) return;
+      const MovingPoint &p = gas.points[i];
+      ASSERT_TRUE(gas.grid.find(p.origin, dt * p.velocity.norm() + 0.005, all));
+      for (int t : all)
+        incomplete += std::find(triangles->begin(), triangles->end(), t) == triangles->end();
+    };
+    list.for_each(gas.grid, dt, 0.005, [](int) {}, take);
+    for (size_t i = 0; i < gas.points.size(); ++i) {
+      const MovingPoint &p = gas.points[i];
+      if (std::fabs(p.origin.norm() - 1.0) > 0.8) continue;
+      bool hit = false;
+      for (const SurfaceTriangle &t : gas.grid.triangles()) {
+        Corners c;
+        for (int k = 0; k < 3; ++k) c[k] = gas.vertices[t.vertex[k]].path;
+        TriangleHit where;
+        for (int side : {1, -1}) hit = hit || collision.find(p, c, side, 0.0, dt, false, where);
+      }
+      hits += hit;
+      missed += hit && !noted[i];
+    }
+    list.pass(dt);
+    for (SurfaceVertex &v : gas.vertices) v.path.origin = v.path.at(dt);
+    for (size_t i = 0; i < gas.points.size(); ++i) {
+      MovingPoint &p = gas.points[i];
+      p.origin = p.at(dt);
+      if ((i + step) % 37 == 0) {
+        p.velocity = random.normal(1.5);
+        list.add(gas.grid, i, p.origin, p.velocity);
+      } else
+        p.velocity += kick * random.vector(1.0).normalized();
+    }
+    list.bend(kick);
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_EQ(incomplete, 0);
+  EXPECT_GT(hits, 1000);
+  EXPECT_LT(taken, 10 * hits);
+  EXPECT_LT(listed, 0.3 * steps * gas.points.size());
+  EXPECT_LT(lists, steps / 2);
 }
 
 TEST(SurfaceCorners, AreOnTheLimitSurface)

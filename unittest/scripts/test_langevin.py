@@ -137,7 +137,7 @@ for fix, said in (("hd/langevin 1 1 0 4711", "damping time 0 must be positive"),
                   ("hd/langevin 1 1 1 4711 scale 1 2 mass consistent", "scale needs mass"),
                   ("hd/brownian 1 4711", "needs gamma_t"),
                   ("hd/brownian 1 4711 gamma_t -1", "must be positive"),
-                  ("hd/nve solver direct", "belongs to mass consistent"),
+                  ("hd/nve mass lumped solver direct", "needs no solver"),
                   ("hd/nve thermostat", "Unknown fix hd/nve keyword thermostat")):
     error = error_of(VESICLE.format(fix=f"fix 1 all {fix}") + "run 0\n")
     claim(f"fix {fix}", said in error, error)

@@ -1,0 +1,145 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+
+#ifndef LMP_MEMBRANE_APPROACH_LIST_H
+#define LMP_MEMBRANE_APPROACH_LIST_H
+
+#include "membrane_collision_grid.h"
+
+#include <vector>
+
+namespace Membrane_NS {
+
+/** Which points come near a moving surface in the time ahead, and near which triangles: made for all points
+    once, it leaves few to be looked at in each step.
+
+    Points are taken to fly straight for the horizon, and those are listed whose line comes within a
+    margin of a triangle where it is now. So for all that is not listed to miss the surface, vertices
+    may come up to the margin away from here, and lines of points may bend, both together: the list
+    serves as long as they have not.
+
+    Who turns a point has to add() it anew; points are numbered from 0. The margin adapts itself so that
+    nearly all lists last for their horizon. */
+class ApproachList {
+ public:
+  ApproachList() = default;
+  /// margin: to begin with.
+  explicit ApproachList(double margin) : margin_(margin) {}
+  /// There is no list any more.
+  void clear() { made_ = false; }
+  /** A new, empty list, for the step that the grid has begun; vertices at the start of it. Steps are
+      up to `step` long, and in one a point is `room` further than that from where it was at most. */
+  void begin(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
+             double horizon, double step, double room);
+  /// All points, of which most are far away.
+  void offer(const SurfaceGrid &grid, int point, const double *x, const double *velocity)
+  {
+    const int cube = grid.cube(x);
+    const double squared = velocity[0] * velocity[0] + velocity[1] * velocity[1] +
+        velocity[2] * velocity[2];
+    const double time = left_ + step_;
+    if (cube >= 0 && time * time * squared < far_[grid.away(cube)]) return;
+    candidates_.push_back(
+        {{x[0], x[1], x[2]}, {velocity[0], velocity[1], velocity[2]}, point, cube});
+  }
+  /// All have been offered.
+  void end(SurfaceGrid &grid);
+  /** List a point, which is at x now, for the rest of the horizon, in place of what was known of it. The
+      grid must be at the step in hand: that of begin(), or the last that serves() was asked for. */
+  void add(SurfaceGrid &grid, int point, const Eigen::Vector3d &x, const Eigen::Vector3d &velocity);
+
+  /// Whether it serves for the step that the grid has begun.
+  bool serves(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, double duration);
+  /// The step is over.
+  void pass(double duration);
+  /// Velocities of points have changed by up to this.
+  void bend(double change) { bent_ += change; }
+
+  /** For all that may meet a triangle in the step that the grid has begun: take(point, triangles) with those
+      within the length of its way and `slack`, or with null if the grid has to find them. Some time
+      before that, fetch(point). */
+  template <class Fetch, class Take>
+  void for_each(const SurfaceGrid &grid, double duration, double slack, const Fetch &fetch,
+                const Take &take)
+  {
+    const double extra = off_ + duration * bent_;
+    meeting_.clear();
+    for (size_t e = 0; e < entries_.size(); ++e) {
+      const Entry &entry = entries_[e];
+      const Way way = way_of(entry, duration);
+      bool meets = entry.first == entry.last;
+      for (int j = entry.first; j < entry.last && !meets; ++j)
+        meets = grid.can_meet(triangles_[j], way.x, way.path, extra);
+      if (!meets || entry.point < 0) continue;
+      fetch(entry.point);
+      meeting_.push_back(static_cast<int>(e));
+    }
+    for (int e : meeting_) {
+      const Entry &entry = entries_[e];
+      const bool known = entry.first < entry.last && duration <= step_ && slack <= room_;
+      if (known) find_around(grid, entry, way_of(entry, duration), slack + 2.0 * extra);
+      take(entry.point, known ? &found_ : nullptr);
+    }
+  }
+  /// Points that are listed.
+  int count() const;
+  /// The rest of the horizon.
+  double left() const { return left_; }
+  double memory_usage() const;
+
+ private:
+  bool made_ = false;
+  double left_ = 0.0, passed_ = 0.0, margin_ = 0.0;
+  double used_ = 0.0;                 // of the margin, so far
+  double moved_ = 0.0;                // vertices at the start of the step, at most
+  double bent_ = 0.0, off_ = 0.0;     // velocities of points, and points from their lines, at most
+  std::vector<Eigen::Vector3d> made_at_;
+  struct Entry {
+    double origin[3], velocity[3];    // of its line, when the list was made
+    int point;                        // or -1: not valid any more
+    int first, last;    // of triangles_; none: its line leaves the grid, any triangle may be near
+  };
+  std::vector<Entry> entries_;
+  std::vector<int> triangles_, found_, meeting_;
+  double step_ = 0.0, room_ = 0.0;
+  SurfaceGrid::Distances far_ = {};
+  struct Candidate {
+    double x[3], velocity[3];
+    int point, cube;
+  };
+  std::vector<Candidate> candidates_, sorted_;
+  std::vector<int> starts_;           // of cubes in the latter
+  SurfaceGrid::Batch batch_;
+  std::vector<int> entry_of_;         // of a point, or -1
+
+  void list(SurfaceGrid &grid, int point, const Eigen::Vector3d &x, const Eigen::Vector3d &velocity);
+  void enter(int point, const Eigen::Vector3d &x, const Eigen::Vector3d &velocity, int first);
+  struct Way {
+    double x[3], path[3];
+  };
+  Way way_of(const Entry &entry, double duration) const
+  {
+    Way way;
+    for (int k = 0; k < 3; ++k) {
+      way.x[k] = entry.origin[k] + passed_ * entry.velocity[k];
+      way.path[k] = duration * entry.velocity[k];
+    }
+    return way;
+  }
+  void find_around(const SurfaceGrid &grid, const Entry &entry, const Way &way, double room);
+};
+
+}    // namespace Membrane_NS
+
+#endif

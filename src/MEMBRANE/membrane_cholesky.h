@@ -1,0 +1,46 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+
+#ifndef LMP_MEMBRANE_CHOLESKY_H
+#define LMP_MEMBRANE_CHOLESKY_H
+
+#include "membrane_vertex_field.h"
+
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace Membrane_NS {
+
+/** A symmetric, positive definite sparse matrix A, factorized: P A P^T = G G^T with a permutation P that
+    keeps G sparse, which Eigen finds. Solves for the four numbers of a vertex at once. */
+class SparseCholesky {
+ public:
+  /// Both triangles of A, or the lower one.
+  explicit SparseCholesky(const Eigen::SparseMatrix<double> &a);
+  int size() const { return static_cast<int>(place_.size()); }
+  /// x = A^-1 x
+  void solve(VertexField &x);
+  double memory_usage() const;
+
+ private:
+  std::vector<int> place_;              // of a row of A in G
+  std::vector<int> start_, row_;        // of G below its diagonal, by columns
+  std::vector<double> value_, inverse_diagonal_;
+  VertexField work_;
+};
+
+}    // namespace Membrane_NS
+
+#endif
