@@ -64,6 +64,7 @@ void ComputeHDTemp::init()
   if (!settings_given)
     if (auto *integrator = FixHDBase::of_group(lmp, groupbit, "Compute hd/temp"))
       mass.settings = integrator->mass_settings();
+  mass.settings.direct = false;    // it solves nothing
   mass.init(true);
 }
 

@@ -249,6 +249,7 @@ void FixSRDMesh::init()
   if (mass) {
     if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
       mass->settings = integrator->mass_settings();
+    mass->settings.direct = false;    // it solves nothing
     if (group->count(membrane) > 0) {
       check_other_solvents();
       mass->init();
@@ -343,13 +344,21 @@ void FixSRDMesh::check_other_solvents()
 }
 
 /* ----------------------------------------------------------------------
-   most solvent feels no force: then there is none to read, nor to clear; and nobody but this fix changes
-   its velocities and places, which then are known in advance
+   Most solvent feels no force: then there is none to read, nor to clear. And where no fix that has
+   solvent in its group acts at other points of a step than forces do, only this fix changes its velocities
+   and places, so they are known in advance. Some fixes act on more than their group
 ------------------------------------------------------------------------- */
 
 void FixSRDMesh::find_influences()
 {
-  static constexpr const char *OBSERVERS[] = {"^ave/", "^print$", "^vector$", "^store/", "^STORE/", "^halt$"};
+  static constexpr const char *OBSERVERS[] = {"^ave/",   "^print$",  "^vector$", "^store/",
+                                              "^STORE/", "^balance", "^halt$"};
+  static constexpr const char *UNKNOWN[] = {"^recenter", "^python/", "^external"};
+  const auto is_one_of = [](const Fix *fix, const auto &patterns) {
+    return std::any_of(std::begin(patterns), std::end(patterns), [fix](const char *pattern) {
+      return utils::strmatch(fix->style, pattern);
+    });
+  };
   constexpr int BY_FORCES = POST_FORCE | PRE_REVERSE;
   constexpr int OTHERWISE = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR |
       POST_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP;
@@ -358,10 +367,9 @@ void FixSRDMesh::find_influences()
   for (size_t f = 0; f < fixes.size(); ++f) {
     if (fixes[f] == this) continue;
     const int mask = modify->fmask[f];
-    const bool observes = std::any_of(
-        std::begin(OBSERVERS), std::end(OBSERVERS),
-        [&](const char *pattern) { return utils::strmatch(fixes[f]->style, pattern); });
+    const bool observes = is_one_of(fixes[f], OBSERVERS);
     const int acts[2] = {mask & BY_FORCES, observes ? 0 : mask & OTHERWISE};
+    if (is_one_of(fixes[f], UNKNOWN)) mine[1] = 1;
     for (int what = 0; what < 2; ++what)
       for (int i = 0; i < atom->nlocal && acts[what] && !mine[what]; ++i)
         if (solvent.has(i) && (group->dynamic[fixes[f]->igroup] || atom->mask[i] & fixes[f]->groupbit))
@@ -520,6 +528,7 @@ void FixSRDMesh::final_integrate()
 void FixSRDMesh::post_run()
 {
   if (have_obstacle && running) check_sides();
+  if (obstacle) obstacle->forget();    // after it anybody may change velocities, and run pre no
 }
 
 void FixSRDMesh::kick()

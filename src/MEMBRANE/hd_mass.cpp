@@ -142,7 +142,11 @@ void HDMass::refresh()
         drag > 0.0 ? drag : atom->rmass[vertices->atom_of(i)];
   vertices->sum(masses.data(), n);
   for (int v = 0; v < n; ++v) labels[v] = surface->tag(v);
-  mass = std::make_unique<MassOperator>(surface->topology(), *vertices, masses, labels, settings);
+  try {
+    mass = std::make_unique<MassOperator>(surface->topology(), *vertices, masses, labels, settings);
+  } catch (const Membrane_NS::MeshError &err) {
+    error->all(FLERR, "{}: {}", user, err.what());
+  }
 }
 
 /* ---------------------------------------------------------------------- */

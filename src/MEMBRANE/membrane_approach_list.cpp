@@ -27,21 +27,28 @@ using Eigen::Vector3d;
 // times are sums of steps
 static constexpr double ROUNDING = 1.0e-9;
 
-// of the margin: more after a list that did not last, less after one that had enough to spare
+// of the margin: more after a list that did not last, less after one that had enough to spare; and of
+// the horizon
 static constexpr double MORE = 1.25, LESS = 0.98, ENOUGH = 0.8;
+static constexpr double LONGER = 1.1;
 
 /* ---------------------------------------------------------------------- */
 
 void ApproachList::begin(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices,
                          int num_points, double horizon, double step, double room)
 {
-  if (used_ > margin_)
-    margin_ *= MORE;
-  else if (left_ == 0.0 && used_ < ENOUGH * margin_)
-    margin_ *= LESS;
-  margin_ = std::max(margin_, (1.0 + ROUNDING) * grid.most_moves());
+  if (used_ > margin_) {
+    if (margin_ < most_)
+      margin_ *= MORE;
+    else
+      lasts_ = std::max(passed_, step);
+  } else if (left_ < step) {
+    lasts_ *= LONGER;
+    if (used_ < ENOUGH * margin_) margin_ *= LESS;
+  }
+  margin_ = std::max(std::min(margin_, most_), (1.0 + ROUNDING) * grid.most_moves());
   made_ = true;
-  left_ = horizon;
+  left_ = std::min(horizon, std::max(lasts_, step));
   passed_ = moved_ = bent_ = off_ = used_ = 0.0;
   step_ = step;
   room_ = room;
@@ -168,5 +175,6 @@ void ApproachList::pass(double duration)
 double ApproachList::memory_usage() const
 {
   return sizeof(Vector3d) * made_at_.capacity() + sizeof(Entry) * entries_.capacity() +
-      sizeof(int) * (triangles_.capacity() + entry_of_.capacity());
+      sizeof(int) * (triangles_.capacity() + entry_of_.capacity() + starts_.capacity()) +
+      sizeof(Candidate) * (candidates_.capacity() + sorted_.capacity());
 }

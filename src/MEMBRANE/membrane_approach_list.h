@@ -30,19 +30,20 @@ namespace Membrane_NS {
     serves as long as they have not.
 
     Who turns a point has to add() it anew; points are numbered from 0. The margin adapts itself so that
-    nearly all lists last for their horizon. */
+    nearly all lists last for their horizon, and if that takes more than the most, the horizon does. */
 class ApproachList {
  public:
   ApproachList() = default;
-  /// margin: to begin with.
-  explicit ApproachList(double margin) : margin_(margin) {}
+  /// margin: to begin with, and at most unless one step takes more.
+  ApproachList(double margin, double most) : margin_(margin), most_(most) {}
   /// There is no list any more.
   void clear() { made_ = false; }
-  /** A new, empty list, for the step that the grid has begun; vertices at the start of it. Steps are
-      up to `step` long, and in one a point is `room` further than that from where it was at most. */
+  /** A new, empty list, for the step that the grid has begun; vertices at the start of it. horizon: how
+      long lines stay straight, of which the list may take less. Steps are up to `step` long, and in one
+      a point comes at most by `room` further than its velocity takes it. */
   void begin(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
              double horizon, double step, double room);
-  /// All points, of which most are far away.
+  /// Call for each point. Most are far away, which takes one look at the grid.
   void offer(const SurfaceGrid &grid, int point, const double *x, const double *velocity)
   {
     const int cube = grid.cube(x);
@@ -70,18 +71,19 @@ class ApproachList {
       within the length of its way and `slack`, or with null if the grid has to find them. Some time
       before that, fetch(point). */
   template <class Fetch, class Take>
-  void for_each(const SurfaceGrid &grid, double duration, double slack, const Fetch &fetch,
-                const Take &take)
+  void for_each_meeting(const SurfaceGrid &grid, double duration, double slack, const Fetch &fetch,
+                        const Take &take)
   {
     const double extra = off_ + duration * bent_;
     meeting_.clear();
     for (size_t e = 0; e < entries_.size(); ++e) {
       const Entry &entry = entries_[e];
+      if (entry.point < 0) continue;
       const Way way = way_of(entry, duration);
       bool meets = entry.first == entry.last;
       for (int j = entry.first; j < entry.last && !meets; ++j)
         meets = grid.can_meet(triangles_[j], way.x, way.path, extra);
-      if (!meets || entry.point < 0) continue;
+      if (!meets) continue;
       fetch(entry.point);
       meeting_.push_back(static_cast<int>(e));
     }
@@ -100,7 +102,8 @@ class ApproachList {
 
  private:
   bool made_ = false;
-  double left_ = 0.0, passed_ = 0.0, margin_ = 0.0;
+  double left_ = 0.0, passed_ = 0.0, margin_ = 0.0, most_ = INFINITY;
+  double lasts_ = INFINITY;           // a list, likely
   double used_ = 0.0;                 // of the margin, so far
   double moved_ = 0.0;                // vertices at the start of the step, at most
   double bent_ = 0.0, off_ = 0.0;     // velocities of points, and points from their lines, at most

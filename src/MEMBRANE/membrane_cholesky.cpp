@@ -18,6 +18,8 @@
 
 #include "membrane_cholesky.h"
 
+#include "membrane_topology.h"
+
 #include <Eigen/SparseCholesky>
 
 using namespace Membrane_NS;
@@ -27,6 +29,8 @@ using namespace Membrane_NS;
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
 {
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(a);
+  if (factor.info() != Eigen::Success)
+    throw MeshError("the mass matrix cannot be factorized: its masses differ too much");
   const auto &permutation = factor.permutationP().indices();
   place_.assign(permutation.data(), permutation.data() + permutation.size());
   const Eigen::SparseMatrix<double> g = factor.matrixL();

@@ -27,7 +27,7 @@ namespace Membrane_NS {
     keeps G sparse, which Eigen finds. Solves for the four numbers of a vertex at once. */
 class SparseCholesky {
  public:
-  /// Both triangles of A, or the lower one.
+  /// Both triangles of A, or the lower one. MeshError if it is not positive definite.
   explicit SparseCholesky(const Eigen::SparseMatrix<double> &a);
   int size() const { return static_cast<int>(place_.size()); }
   /// x = A^-1 x

@@ -284,8 +284,9 @@ void SurfaceGrid::collect(const Range &range, std::vector<int> &found, const Nea
         const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
         for (int j = start_[cube]; j < start_[cube + 1]; ++j) {
           const int t = list_[j];
-          if (!near(t) || seen_[t] == clock_) continue;
+          if (seen_[t] == clock_) continue;
           seen_[t] = clock_;
+          if (!near(t)) continue;
           found.push_back(t);
         }
       }

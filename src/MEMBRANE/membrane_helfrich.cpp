@@ -33,6 +33,26 @@ static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of
    groups
 ------------------------------------------------------------------------- */
 
+int FaceGroup::nblocks() const
+{
+  return (nfaces + LANES - 1) / LANES;
+}
+
+int FaceGroup::nslots() const
+{
+  return nblocks() * LANES;
+}
+
+int &FaceGroup::point(int i, int k)
+{
+  return points[(i / LANES * rule->size + k) * LANES + i % LANES];
+}
+
+int FaceGroup::point(int i, int k) const
+{
+  return points[(i / LANES * rule->size + k) * LANES + i % LANES];
+}
+
 std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchRules &rules,
                                                 const std::vector<int> &faces)
 {

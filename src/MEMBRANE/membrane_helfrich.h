@@ -41,11 +41,12 @@ struct FaceGroup {
   int nfaces = 0;
   std::vector<int> face;      ///< [nfaces] index in the topology
   std::vector<int> points;    ///< [nblocks][rule->size][LANES] control point indices
-  int nblocks() const { return (nfaces + LANES - 1) / LANES; }
-  int nslots() const { return nblocks() * LANES; }
+  // not inline: who includes this may be compiled for another machine's vectors
+  int nblocks() const;
+  int nslots() const;
   /// The k-th control point of the i-th face of the group.
-  int &point(int i, int k) { return points[(i / LANES * rule->size + k) * LANES + i % LANES]; }
-  int point(int i, int k) const { return const_cast<FaceGroup *>(this)->point(i, k); }
+  int &point(int i, int k);
+  int point(int i, int k) const;
 };
 
 /// Sort faces into groups; `points` holds vertex indices. Groups keep pointers into `rules`.

@@ -86,6 +86,17 @@ inline Lane3 combine(const double *weights, const std::vector<Lane3> &x)
   return sum;
 }
 
+// many numbers, with what rounding takes from each added to the next [W. Kahan, CACM 8, 40 (1965)]
+struct LaneSum {
+  Lane sum{}, lost{};
+  void add(const Lane &value)
+  {
+    const Lane next = value - lost, more = sum + next;
+    lost = (more - sum) - next;
+    sum = more;
+  }
+};
+
 /* ----------------------------------------------------------------------
    visit(r, n dA) for each quadrature point of each block of faces; n dA is zero in lanes that
    fill up the last block
@@ -130,13 +141,13 @@ void for_each_point(const FaceGroup &group, const double (*x)[3], const FaceMode
 void Membrane_NS::sheet_moments(const FaceGroup &group, const double (*x)[3],
                                 const FaceModel &model, double (&sums)[2])
 {
-  Lane area{}, first{};
+  LaneSum area, first;
   for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
-    area += n.z;
-    first += r.z * n.z;
+    area.add(n.z);
+    first.add(r.z * n.z);
   });
-  sums[0] += total(area);
-  sums[1] += total(first);
+  sums[0] += total(area.sum);
+  sums[1] += total(first.sum);
 }
 
 /* ----------------------------------------------------------------------

@@ -45,8 +45,7 @@ using Membrane_NS::SurfaceImpulse;
 
 // see TriangleCollision: far above rounding, also of coordinates in a large box
 static constexpr double CONTACT = 1.0e-10;
-// the grid is built anew when vertices have moved so far; of distances beyond this from its cubes, it
-// knows less
+// the grid is built anew when vertices have moved so far; its cubes know triangles within both
 static constexpr double SKIN = 0.3, REACH = 0.45;
 // vertices may be deflected so far in one step, points so far beyond where their speed takes them;
 // looked for in the first attempt, and at most
@@ -56,6 +55,8 @@ static constexpr double LESS_SLACK = 0.99;
 static constexpr double SPACING = 0.7;
 // of the list of solvent that comes near, to begin with
 static constexpr double MARGIN = 0.2;
+// and for it solvent moves so far, in root mean squares: further, and there would be many to look at
+static constexpr double LONGEST = 0.5;
 
 // of the random numbers that say with which side a point mass collides, and of thermal velocities of
 // those that are held
@@ -70,7 +71,7 @@ SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
     Pointers(lmp), motion(lmp, settings.membranes, settings.level, settings.user),
     regions(lmp, motion, settings.user), tally{}, settings(settings), built_epoch(-1),
     everywhere(settings.control || settings.level > 0),
-    vertex_slack(0.0), point_slack(0.0), vertices(nullptr)
+    speed(0.0), vertex_slack(0.0), point_slack(0.0), vertices(nullptr)
 {
 }
 
@@ -97,7 +98,8 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
   }
   events = CollisionEvents(rule);
   grid = {};
-  approaching = ApproachList(MARGIN * motion.surface_edge());
+  approaching = ApproachList(MARGIN * motion.surface_edge(),
+                             SKIN * motion.surface_edge() + MOST_SLACK * motion.edge());
   vertex_slack = point_slack = FIRST_SLACK * motion.edge();
 }
 
@@ -159,7 +161,8 @@ void SurfaceObstacle::build_grid(const Flight &flight)
   const double edge = motion.surface_edge();
   SurfaceGrid::Settings s;
   s.skin = SKIN * edge;
-  s.reach = REACH * edge + FAST * flight.dt * std::sqrt(square / std::max(1, solvent.count()));
+  speed = std::sqrt(square / std::max(1, solvent.count()));
+  s.reach = REACH * edge + FAST * flight.dt * speed;
   s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
@@ -195,7 +198,7 @@ bool SurfaceObstacle::gather(const Flight &flight)
   const BoxWalls &walls = flight.streaming.walls;
   const bool have_walls = walls.any();
   near.clear();
-  if (have_walls) held.assign(atom->nlocal, 0);
+  apart.assign(have_walls ? atom->nlocal : 0, 0);
   grid.begin(motion.surface(), *vertices, motion.lattice_now(), flight.dt, vertex_slack,
              motion.lattice_rate());
   events.begin(*vertices, grid.triangles(), flight.dt, vertex_slack, walls, motion.middle());
@@ -218,13 +221,13 @@ bool SurfaceObstacle::gather(const Flight &flight)
     else
       all_found = find_and_note(i, flight) && all_found;
   };
-  approaching.for_each(grid, flight.dt, point_slack, fetch, take);
+  approaching.for_each_meeting(grid, flight.dt, point_slack, fetch, take);
   if (!have_walls) return all_found;
 
   // who meets a wall may then fly anywhere
 
   for (int i = solvent.first(); i < solvent.last(); ++i) {
-    if (!solvent.has(i) || held[i]) continue;
+    if (!solvent.has(i) || apart[i]) continue;
     int face;
     walls.first_hit(atom->x[i], atom->v[i], flight.dt, face);
     if (face >= 0) all_found = find_and_note(i, flight) && all_found;
@@ -235,7 +238,8 @@ bool SurfaceObstacle::gather(const Flight &flight)
 void SurfaceObstacle::list_approaching(const Flight &flight)
 {
   const SRDSolvent &solvent = flight.solvent;
-  approaching.begin(grid, *vertices, atom->nlocal, std::max(flight.dt, flight.horizon),
+  const double far = LONGEST * motion.surface_edge() / std::max(speed, 1.0e-300);
+  approaching.begin(grid, *vertices, atom->nlocal, std::max(flight.dt, std::min(flight.horizon, far)),
                     std::max(flight.dt, update->dt), 2.0 * point_slack);
   for (int i = solvent.first(); i < solvent.last(); ++i)
     if (solvent.has(i)) approaching.offer(grid, i, atom->x[i], atom->v[i]);
@@ -257,7 +261,7 @@ void SurfaceObstacle::note(int i, const std::vector<int> &triangles, const Fligh
   if (triangles.empty()) return;
   const MovingPoint path = {Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i])};
   near.push_back({i, path, false});
-  if (!held.empty()) held[i] = 1;
+  if (!apart.empty()) apart[i] = 1;
   const double mass = flight.solvent.mass()[i];
   events.add_point(path, 1.0 / mass, atom->tag[i], flight.dt * path.velocity.norm() + point_slack);
   if (forces_on_solvent)
@@ -343,10 +347,10 @@ void SurfaceObstacle::move(const Flight &flight)
     const MovingPoint &path = events.path(n);
     near[n].turned =
         path.velocity != near[n].path.velocity || path.origin != near[n].path.origin;
-    if (have_walls) held[near[n].atom] = near[n].turned;
+    if (have_walls) apart[near[n].atom] = near[n].turned;
   }
   turned_by_walls.clear();
-  flight.streaming.stream(flight.solvent, flight.dt, &held, &turned_by_walls);
+  flight.streaming.stream(flight.solvent, flight.dt, &apart, &turned_by_walls);
   approaching.pass(flight.dt);
   for (size_t n = 0; n < near.size(); ++n) {
     if (!near[n].turned) continue;

@@ -107,8 +107,9 @@ class SurfaceObstacle : protected Pointers {
     bool turned;
   };
   std::vector<Near> near;
-  std::vector<char> held;      // with walls, by local atom: it is near, or turned
+  std::vector<char> apart;     // with walls, by local atom: it is near; then: it turned there
   std::vector<int> found, turned_by_walls;
+  double speed;                // of this rank's solvent, root mean square, when the grid was built
   double vertex_slack, point_slack;
 
   const std::vector<Membrane_NS::SurfaceVertex> *vertices;

@@ -76,7 +76,7 @@ struct Gas {
   CollisionEvents events;
   SurfaceGrid grid;
   static constexpr int HORIZON = 7;    // steps
-  ApproachList list{0.02};
+  ApproachList list{0.02, 0.2};
   long collisions = 0, strayed = 0, lists = 0;
 
   Gas(TriangleMesh m, double vertex_mass, bool no_slip = false, int n = 1) : mesh(std::move(m))
@@ -219,7 +219,7 @@ struct Gas {
         for (int t : found)
           events.add_pair(t, where.side(level[i], grid.images()[t].lattice[axis]));
       };
-      list.for_each(grid, time_step, more, [](int) {}, take);
+      list.for_each_meeting(grid, time_step, more, [](int) {}, take);
       if (!all_found) {
         build(settings);
         list.clear();
@@ -604,7 +604,7 @@ TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
     }
     EXPECT_EQ(leaks, 0);
     EXPECT_GT(gas.collisions, 5000);
-    EXPECT_LT(gas.lists, 150);    // of 300 steps: 10 take two at least
+    EXPECT_LT(gas.lists, 250);    // in 300 steps, though vertices stray often
   }
 }
 
@@ -652,7 +652,7 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   gas.thickness = 0.3;
   for (int i = 0; i < 4000; ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
   gas.build({0.15, 0.1, 0.2});
-  ApproachList list(0.02);
+  ApproachList list(0.02, 0.2);
   const TriangleCollision collision;
   const int steps = 60, horizon = 8;
   int hits = 0, missed = 0, taken = 0, listed = 0, lists = 0, incomplete = 0;
@@ -684,7 +684,7 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
       for (int t : all)
         incomplete += std::find(triangles->begin(), triangles->end(), t) == triangles->end();
     };
-    list.for_each(gas.grid, dt, 0.005, [](int) {}, take);
+    list.for_each_meeting(gas.grid, dt, 0.005, [](int) {}, take);
     for (size_t i = 0; i < gas.points.size(); ++i) {
       const MovingPoint &p = gas.points[i];
       if (std::fabs(p.origin.norm() - 1.0) > 0.8) continue;

@@ -142,7 +142,7 @@ special_bonds   lj/coul 1 1 1
 pair_style      helfrich
 pair_coeff      1 1 1.0 {2 * math.sqrt(2)!r} area 1000.0 {4 * math.pi!r} volume 1000.0 {4 * math.pi / 3 * math.sqrt(0.5)!r} {terms}
 min_style       membrane
-minimize        0 0 2000 20000
+minimize        0 0 4000 40000
 """)
     warning = re.search("WARNING: The bending energy is .*", output)
     claim(f"a neck that closes, {terms or 'no regularize'}: a finer rule " + ("sees another energy, and a warning says so"

@@ -395,6 +395,20 @@ last = near("a held vesicle whose points have velocities", VESICLE.format(0) + "
             box="block 0 8 0 8 0 8", args="collision noslip", every=5, steps=300)
 claim("    does not stir the solvent", abs(last["c_T"] - 1) < 0.05, last["c_T"])
 
+# the list of solvent that comes near holds for 50 steps, if nothing turns solvent in between
+
+AGAIN = """velocity        solvent scale 2.0
+run             20 pre no post no
+velocity        solvent create 1.0 3 loop all
+run             40 pre no"""
+for what, move, after in (("a thermostat", "fix 1 solvent temp/rescale 3 1.0 1.0 0.0 1.0", ""),
+                          ("a shift of everything", "fix 1 membrane hd/nve\nvelocity membrane set 0.5 0.2 0.0\n"
+                                                    "fix 3 membrane recenter INIT INIT INIT shift all", ""),
+                          ("gravity", "fix 1 solvent gravity 1.0 vector 1 1 0", ""),
+                          ("velocities set between runs", "", AGAIN)):
+    near(f"{what}, cells that collide every 50 steps", VESICLE.format(0), box="block 0 8 0 8 0 8", move=move,
+         args="collision noslip", every=50, steps=f"120 post no\n{after}" if after else 120)
+
 # a minimization moves the membrane past solvent that stays; the next run takes sides anew
 
 output = run(SCENE.format(**{**SCENES["the same, no slip"].values, "energy": "20.0 0.0"}) + """
