@@ -650,11 +650,11 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   const double dt = 0.01, kick = 0.05;
   Gas gas(mesh, 1.0);
   gas.thickness = 0.3;
-  for (int i = 0; i < 4000; ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
+  for (int i = 0; i < 2000; ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
   gas.build({0.15, 0.1, 0.2});
   ApproachList list(0.02, 0.2);
   const TriangleCollision collision;
-  const int steps = 60, horizon = 8;
+  const int steps = 40, horizon = 8;
   int hits = 0, missed = 0, taken = 0, listed = 0, lists = 0, incomplete = 0;
   for (int step = 0; step < steps; ++step) {
     gas.shake(0.3, random);
@@ -685,9 +685,9 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
         incomplete += std::find(triangles->begin(), triangles->end(), t) == triangles->end();
     };
     list.for_each_meeting(gas.grid, dt, 0.005, [](int) {}, take);
-    for (size_t i = 0; i < gas.points.size(); ++i) {
+    for (size_t i = step % 4; i < gas.points.size(); i += 4) {
       const MovingPoint &p = gas.points[i];
-      if (std::fabs(p.origin.norm() - 1.0) > 0.8) continue;
+      if (std::fabs(p.origin.norm() - 1.0) > 0.5) continue;
       bool hit = false;
       for (const SurfaceTriangle &t : gas.grid.triangles()) {
         Corners c;
@@ -713,8 +713,8 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   }
   EXPECT_EQ(missed, 0);
   EXPECT_EQ(incomplete, 0);
-  EXPECT_GT(hits, 1000);
-  EXPECT_LT(taken, 10 * hits);
+  EXPECT_GT(hits, 100);
+  EXPECT_LT(taken, 10 * 4 * hits);
   EXPECT_LT(listed, 0.3 * steps * gas.points.size());
   EXPECT_LT(lists, steps / 2);
 }
