@@ -719,6 +719,111 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   EXPECT_LT(lists, steps / 2);
 }
 
+namespace {
+
+// points above a flat sheet at the height z(step), which rises and falls; what happens to a point between steps
+// is up to `between`, which may turn it
+
+struct Sheet {
+  static constexpr double DT = 0.01, MARGIN = 0.05;
+  SurfaceFaces surface;
+  std::vector<SurfaceVertex> vertices;
+  SurfaceGrid grid;
+  ApproachList list{MARGIN, MARGIN};
+  MovingPoint point;
+  int hits = 0, missed = 0, lists = 0;
+
+  Sheet()
+  {
+    const int n = 7;
+    for (int i = 0; i < n * n; ++i)
+      vertices.push_back({{Vector3d(0.5 * (i % n) - 1.5, 0.5 * (i / n) - 1.5, 0.0), Vector3d::Zero()}});
+    for (int i = 0; i + 1 < n; ++i)
+      for (int j = 0; j + 1 < n; ++j) {
+        const int a = i * n + j;
+        surface.faces.push_back({a, a + 1, a + n + 1});
+        surface.faces.push_back({a, a + n + 1, a + n});
+      }
+  }
+
+  template <class Height, class Between>
+  void fly(int steps, int horizon, const Height &height, const Between &between)
+  {
+    const Matrix3d lattice = 10.0 * Matrix3d::Identity();
+    for (int step = 0; step < steps; ++step) {
+      for (SurfaceVertex &v : vertices) {
+        v.path.origin[2] = height(step);
+        v.path.velocity[2] = (height(step + 1) - height(step)) / DT;
+      }
+      if (!grid.is_built())    // cubes from z = -1.995 on, of 0.2
+        grid.build(surface, vertices, lattice, {false, false, false}, Vector3d(-2, -2, -1.995),
+                   Vector3d(2, 2, 2), {0.1, 0.1, 0.2});
+      ASSERT_TRUE(grid.serves(vertices, lattice));
+      grid.begin(surface, vertices, lattice, DT, 1.0e-6);
+      if (!list.serves(grid, vertices, DT)) {
+        list.begin(grid, vertices, 1, horizon * DT, DT, 0.0);
+        list.offer(grid, 0, point.origin.data(), point.velocity.data());
+        list.end(grid);
+        ++lists;
+      }
+      bool noted = false, hit = false;
+      list.for_each_meeting(grid, DT, 0.0, [](int) {}, [&](int, const std::vector<int> *) { noted = true; });
+      const double before = point.origin[2] - height(step),
+                   after = point.at(DT)[2] - height(step + 1);
+      hit = (before > 0.0) != (after > 0.0);
+      hits += hit;
+      missed += hit && !noted;
+      list.pass(DT);
+      point.origin = point.at(DT);
+      between(step);
+    }
+  }
+};
+
+}    // namespace
+
+TEST(ApproachList, LinesThatBendUseUpTheMargin)
+{
+  Sheet sheet;
+  sheet.point = {{0.1, 0.1, 0.15}, {0.2, 0.0, 0.0}};
+  sheet.fly(30, 30, [](int) { return 0.0; }, [&](int) {
+    sheet.point.velocity[2] -= 0.04;
+    sheet.list.bend(0.04);
+  });
+  EXPECT_EQ(sheet.hits, 1);
+  EXPECT_EQ(sheet.missed, 0);
+  EXPECT_GT(sheet.lists, 1);
+}
+
+TEST(ApproachList, WhoTurnsIsListedForWhereTheSurfaceWasToo)
+{
+  // the sheet has risen by 0.04 when the point comes to rest 0.06 below it, and falls by 0.08
+
+  Sheet sheet;
+  sheet.point = {{0.1, 0.1, -1.0}, {0.0, 0.0, 0.0}};
+  auto height = [](int step) { return step < 5 ? 0.008 * step : 0.04 - 0.008 * (step - 5); };
+  sheet.fly(15, 15, height, [&](int step) {
+    if (step != 4) return;
+    sheet.point = {{0.1, 0.1, -0.02}, {0.0, 0.0, 0.0}};
+    sheet.list.add(sheet.grid, 0, sheet.point.origin, sheet.point.velocity);
+  });
+  EXPECT_EQ(sheet.hits, 1);
+  EXPECT_EQ(sheet.missed, 0);
+  EXPECT_EQ(sheet.lists, 1);
+}
+
+TEST(ApproachList, WhoFliesFromAnEmptyCubeMayMeetWhatComesTowardsIt)
+{
+  // from 0.215, in a cube that begins at 0.205, to 0.02 in 20 steps, while the sheet rises to 0.04
+
+  Sheet sheet;
+  sheet.point = {{0.1, 0.1, 0.215}, {0.0, 0.0, -0.975}};
+  sheet.fly(20, 20, [](int step) { return 0.002 * step; }, [](int) {});
+  EXPECT_EQ(sheet.hits, 1);
+  EXPECT_EQ(sheet.missed, 0);
+  EXPECT_EQ(sheet.lists, 1);
+}
+
 TEST(SurfaceCorners, AreOnTheLimitSurface)
 {
   // valences 3 to 12 and a torus; r = L q and corners from r, against tessellate() from q
