@@ -814,10 +814,10 @@ TEST(ApproachList, WhoTurnsIsListedForWhereTheSurfaceWasToo)
 
 TEST(ApproachList, WhoFliesFromAnEmptyCubeMayMeetWhatComesTowardsIt)
 {
-  // from 0.215, in a cube that begins at 0.205, to 0.02 in 20 steps, while the sheet rises to 0.04
+  // from 0.215, in a cube that begins at 0.205, to 0.029 in 20 steps, while the sheet rises to 0.04
 
   Sheet sheet;
-  sheet.point = {{0.1, 0.1, 0.215}, {0.0, 0.0, -0.975}};
+  sheet.point = {{0.1, 0.1, 0.215}, {0.0, 0.0, -0.93}};
   sheet.fly(20, 20, [](int step) { return 0.002 * step; }, [](int) {});
   EXPECT_EQ(sheet.hits, 1);
   EXPECT_EQ(sheet.missed, 0);
