@@ -4,7 +4,8 @@
   bench/run_srd.py [--lmp build/lmp] [--repeat 5]
 
 Prints the time of an atom and step in bulk and around a vesicle of 642 control points, in LJ units (see
-run_bench.py) and as ratios to fix srd in bulk: median over the rounds and, in brackets, smallest and largest.
+run_bench.py) and as ratios to fix srd in bulk: median over the rounds and, in brackets, smallest and largest,
+then the ratio of the fastest rounds, which a busy machine disturbs least.
 lmp needs LAMMPS' package SRD."""
 
 import argparse
@@ -28,20 +29,22 @@ def main():
     parser.add_argument("--lmp", default=os.path.join(HERE, "..", "build", "lmp"))
     parser.add_argument("--repeat", type=int, default=5)
     options = parser.parse_args()
-    rounds = []
+    rounds, times = [], {name: [] for name in CASES}
     for _ in range(options.repeat):
         unit = seconds(lammps(options.lmp, "in.lj", {})[0], "Loop")
         rounds.append({})
         for name, variables in CASES.items():
             output = lammps(options.lmp, "in.srd", variables)[0]
-            rounds[-1][name] = seconds(output[output.rindex("Loop time"):], "Loop") / unit
+            times[name].append(seconds(output[output.rindex("Loop time"):], "Loop"))
+            rounds[-1][name] = times[name][-1] / unit
     reference = next(iter(CASES))
-    print("case                                    LJ units an atom-step     over fix srd in bulk")
+    print("case                                    LJ units an atom-step     over fix srd in bulk      fastest")
     for name in CASES:
         values = [r[name] for r in rounds]
         ratios = [r[name] / r[reference] for r in rounds]
         print(f"{name:38s}" + "".join(f"  {statistics.median(v):6.3f} [{min(v):.3f}, {max(v):.3f}]"
-                                      for v in (values, ratios)))
+                                      for v in (values, ratios))
+              + f"  {min(times[name]) / min(times[reference]):6.3f}")
 
 
 if __name__ == "__main__":
