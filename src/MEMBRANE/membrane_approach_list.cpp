@@ -15,7 +15,6 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-
 #include "membrane_approach_list.h"
 
 #include <algorithm>

@@ -11,7 +11,6 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-
 #ifndef LMP_MEMBRANE_APPROACH_LIST_H
 #define LMP_MEMBRANE_APPROACH_LIST_H
 
@@ -89,7 +88,8 @@ class ApproachList {
     }
     for (int e : meeting_) {
       const Entry &entry = entries_[e];
-      const bool known = entry.first < entry.last && duration <= step_ && slack <= room_;
+      const bool known =
+          entry.first < entry.last && duration <= step_ && slack + extra <= room_;
       if (known) find_around(grid, entry, way_of(entry, duration), slack + 2.0 * extra);
       take(entry.point, known ? &found_ : nullptr);
     }

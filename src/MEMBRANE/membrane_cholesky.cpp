@@ -15,7 +15,6 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-
 #include "membrane_cholesky.h"
 
 #include "membrane_topology.h"

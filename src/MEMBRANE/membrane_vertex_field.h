@@ -11,7 +11,6 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-
 #ifndef LMP_MEMBRANE_VERTEX_FIELD_H
 #define LMP_MEMBRANE_VERTEX_FIELD_H
 
