@@ -593,8 +593,14 @@ void FixSRDMesh::stream_past_membranes(double dt, double until_collision)
 void FixSRDMesh::wrap()
 {
   if (!aside.active() || domain->deform_vremap) return;    // LAMMPS changes velocities, too
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
+  constexpr int BLOCK = 512;
+  int outside[BLOCK];
+  for (int first = solvent.first(); first < solvent.last(); first += BLOCK) {
+    const int n = MIN(BLOCK, solvent.last() - first);
+    cells->grid.find_outside(atom->x[first], n, outside);
+    for (int i = first; i < first + n; ++i)
+      if (outside[i - first] && solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
+  }
 }
 
 /* ----------------------------------------------------------------------

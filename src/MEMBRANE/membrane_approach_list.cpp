@@ -26,6 +26,9 @@ using Eigen::Vector3d;
 // times are sums of steps
 static constexpr double ROUNDING = 1.0e-9;
 
+// far above rounding of floats
+static constexpr double FLOATS = 1.0e-6;
+
 // of the margin: more after a list that did not last, less after one that had enough to spare; and of
 // the horizon
 static constexpr double MORE = 1.25, LESS = 0.98, ENOUGH = 0.8;
@@ -33,8 +36,8 @@ static constexpr double LONGER = 1.1;
 
 /* ---------------------------------------------------------------------- */
 
-void ApproachList::begin(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices,
-                         int num_points, double horizon, double step, double room)
+void ApproachList::begin(SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
+                         double horizon, double step, double room)
 {
   if (used_ > margin_) {
     if (margin_ < most_)
@@ -51,13 +54,70 @@ void ApproachList::begin(const SurfaceGrid &grid, const std::vector<SurfaceVerte
   passed_ = moved_ = bent_ = off_ = used_ = 0.0;
   step_ = step;
   room_ = room;
-  far_ = grid.distances(margin_ + room_);
+  find_far(grid);
+  grid.measure_layers();
   candidates_.clear();
   made_at_.resize(vertices.size());
   for (size_t v = 0; v < vertices.size(); ++v) made_at_[v] = vertices[v].path.origin;
+  for (const Entry &entry : entries_)
+    if (entry.point >= 0) entry_of_[entry.point] = -1;
+  entry_of_.resize(num_points, -1);
   entries_.clear();
+  watched_.clear();
   triangles_.clear();
-  entry_of_.assign(num_points, -1);
+  travelled_ = 0.0;
+  last_at_ = made_at_;
+}
+
+void ApproachList::find_far(const SurfaceGrid &grid)
+{
+  const auto squares = grid.distances(margin_ + room_);
+  std::array<float, squares.size()> rounded;
+  for (size_t n = 0; n < squares.size(); ++n)
+    rounded[n] = static_cast<float>((1.0 - FLOATS) * squares[n]);
+  far_.resize(grid.num_cubes() + 1);
+  far_[0] = 0.0;
+  for (int c = 0; c < grid.num_cubes(); ++c) far_[c + 1] = rounded[grid.away(c)];
+}
+
+/* ----------------------------------------------------------------------
+   Two loops that compilers turn into vectors leave one point of six, and the layers of cubes one of
+   these in four
+------------------------------------------------------------------------- */
+
+void ApproachList::offer(const SurfaceGrid &grid, int first, int last, const double *x,
+                         const double *velocity, const std::function<bool(int)> &has)
+{
+  constexpr int BLOCK = 512;
+  int cubes[BLOCK], near[BLOCK];
+  float flight[BLOCK];
+  const double reach = (left_ + step_) * (left_ + step_);
+  for (int start = first; start < last; start += BLOCK) {
+    const int n = std::min(BLOCK, last - start);
+    const double *xs = x + 3 * (size_t) start, *vs = velocity + 3 * (size_t) start;
+    grid.find_cubes(xs, n, cubes);
+    for (int i = 0; i < n; ++i)
+      flight[i] = static_cast<float>(
+          reach * (vs[3 * i] * vs[3 * i] + vs[3 * i + 1] * vs[3 * i + 1] + vs[3 * i + 2] * vs[3 * i + 2]));
+    int num_near = 0;
+    for (int i = 0; i < n; ++i) {
+      near[num_near] = i;
+      num_near += !(flight[i] < far_[cubes[i] + 1]);
+    }
+    for (int j = 0; j < num_near; ++j) {
+      const int i = near[j], cube = cubes[i];
+      if (!has(start + i)) continue;
+      Candidate c = {{}, {}, start + i, cube};
+      std::copy_n(xs + 3 * i, 3, c.x);
+      std::copy_n(vs + 3 * i, 3, c.velocity);
+      const Vector3d way = left_ * Vector3d::Map(c.velocity), end = Vector3d::Map(c.x) + way;
+      if (cube < 0 || !grid.knows_all(margin_, way.squaredNorm()) ||
+          grid.comes_to_layer(cube, c.x, end.data(), margin_)) {
+        __builtin_prefetch(&entry_of_[c.point]);
+        candidates_.push_back(c);
+      }
+    }
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -97,7 +157,10 @@ void ApproachList::end(SurfaceGrid &grid)
 void ApproachList::add(SurfaceGrid &grid, int point, const Vector3d &x, const Vector3d &velocity)
 {
   int &entry = entry_of_[point];
-  if (entry >= 0) entries_[entry].point = -1;
+  if (entry >= 0) {
+    entries_[entry].point = -1;
+    watched_[entry].clear = INFINITY;
+  }
   entry = -1;
   list(grid, point, x, velocity);
 }
@@ -133,6 +196,31 @@ void ApproachList::enter(int point, const Vector3d &x, const Vector3d &velocity,
                       point,
                       first,
                       static_cast<int>(triangles_.size())});
+  watched_.push_back({-INFINITY, velocity.norm()});
+}
+
+/* ----------------------------------------------------------------------
+   If it may not meet a triangle in this step, neither will it until it and they have come as far as it now
+   is away from them
+------------------------------------------------------------------------- */
+
+bool ApproachList::look(const SurfaceGrid &grid, int e, double duration, double extra)
+{
+  const Entry &entry = entries_[e];
+  Watched &watched = watched_[e];
+  const Way way = way_of(entry, duration);
+  const double reach = duration * watched.speed + extra;
+  double off = INFINITY;
+  for (int j = entry.first; j < entry.last; ++j) {
+    const double away = grid.off(triangles_[j], way.x);
+    if (away <= reach + grid.moves(triangles_[j]) &&
+        grid.can_meet(triangles_[j], way.x, way.path, extra))
+      return true;
+    off = std::min(off, away);
+  }
+  if (entry.first == entry.last) return true;
+  watched.clear = off + passed_ * watched.speed + travelled_;
+  return false;
 }
 
 void ApproachList::find_around(const SurfaceGrid &grid, const Entry &entry, const Way &way,
@@ -155,10 +243,15 @@ bool ApproachList::serves(const SurfaceGrid &grid, const std::vector<SurfaceVert
                           double duration)
 {
   if (!made_ || duration > (1.0 + ROUNDING) * left_) return false;
-  double most = 0.0;
-  for (size_t v = 0; v < vertices.size(); ++v)
-    most = std::max(most, (vertices[v].path.origin - made_at_[v]).squaredNorm());
+  double most = 0.0, most_since = 0.0;
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    const Vector3d &now = vertices[v].path.origin;
+    most = std::max(most, (now - made_at_[v]).squaredNorm());
+    most_since = std::max(most_since, (now - last_at_[v]).squaredNorm());
+    last_at_[v] = now;
+  }
   moved_ = std::sqrt(most);
+  travelled_ += std::sqrt(most_since);
   used_ = moved_ + grid.most_moves() + off_ + duration * bent_;
   return used_ <= margin_;
 }
@@ -173,7 +266,8 @@ void ApproachList::pass(double duration)
 
 double ApproachList::memory_usage() const
 {
-  return sizeof(Vector3d) * made_at_.capacity() + sizeof(Entry) * entries_.capacity() +
+  return sizeof(float) * far_.capacity() + 2 * sizeof(Vector3d) * made_at_.capacity() +
+      sizeof(Watched) * watched_.capacity() + sizeof(Entry) * entries_.capacity() +
       sizeof(int) * (triangles_.capacity() + entry_of_.capacity() + starts_.capacity()) +
       sizeof(Candidate) * (candidates_.capacity() + sorted_.capacity());
 }

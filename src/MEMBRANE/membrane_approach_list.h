@@ -16,6 +16,7 @@
 
 #include "membrane_collision_grid.h"
 
+#include <functional>
 #include <vector>
 
 namespace Membrane_NS {
@@ -40,19 +41,13 @@ class ApproachList {
   /** A new, empty list, for the step that the grid has begun; vertices at the start of it. horizon: how
       long lines stay straight, of which the list may take less. Steps are up to `step` long, and in one
       a point comes at most by `room` further than its velocity takes it. */
-  void begin(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
+  void begin(SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
              double horizon, double step, double room);
-  /// Call for each point. Most are far away, which takes one look at the grid.
-  void offer(const SurfaceGrid &grid, int point, const double *x, const double *velocity)
-  {
-    const int cube = grid.cube(x);
-    const double squared = velocity[0] * velocity[0] + velocity[1] * velocity[1] +
-        velocity[2] * velocity[2];
-    const double time = left_ + step_;
-    if (cube >= 0 && time * time * squared < far_[grid.away(cube)]) return;
-    candidates_.push_back(
-        {{x[0], x[1], x[2]}, {velocity[0], velocity[1], velocity[2]}, point, cube});
-  }
+  /** Call for all points, here those from first to last - 1 that has(i) takes. x, velocity: of all points,
+      three numbers each. Most are far away, and most others fly past, which takes one look at the grid
+      each. */
+  void offer(const SurfaceGrid &grid, int first, int last, const double *x, const double *velocity,
+             const std::function<bool(int)> &has);
   /// All have been offered.
   void end(SurfaceGrid &grid);
   /** List a point, which is at x now, for the rest of the horizon, in place of what was known of it. The
@@ -74,18 +69,22 @@ class ApproachList {
                         const Take &take)
   {
     const double extra = off_ + duration * bent_;
-    meeting_.clear();
-    for (size_t e = 0; e < entries_.size(); ++e) {
-      const Entry &entry = entries_[e];
-      if (entry.point < 0) continue;
-      const Way way = way_of(entry, duration);
-      bool meets = entry.first == entry.last;
-      for (int j = entry.first; j < entry.last && !meets; ++j)
-        meets = grid.can_meet(triangles_[j], way.x, way.path, extra);
-      if (!meets) continue;
-      fetch(entry.point);
-      meeting_.push_back(static_cast<int>(e));
+    const double time = passed_ + duration, moves = travelled_ + grid.most_moves() + extra;
+    const int n = static_cast<int>(watched_.size());
+    meeting_.resize(n);
+    int num_watched = 0;
+    for (int e = 0; e < n; ++e) {
+      meeting_[num_watched] = e;
+      num_watched += !(watched_[e].clear > time * watched_[e].speed + moves);
     }
+    int num_meeting = 0;
+    for (int i = 0; i < num_watched; ++i) {
+      const int e = meeting_[i];
+      if (!look(grid, e, duration, extra)) continue;
+      fetch(entries_[e].point);
+      meeting_[num_meeting++] = e;
+    }
+    meeting_.resize(num_meeting);
     for (int e : meeting_) {
       const Entry &entry = entries_[e];
       const bool known =
@@ -114,9 +113,16 @@ class ApproachList {
     int first, last;    // of triangles_; none: its line leaves the grid, any triangle may be near
   };
   std::vector<Entry> entries_;
+  struct Watched {
+    double clear;    // of its triangles, plus what it and they had come when that was so
+    double speed;
+  };
+  std::vector<Watched> watched_;     // of each entry
+  double travelled_ = 0.0;           // by vertices from step to step, sum of the most of each
+  std::vector<Eigen::Vector3d> last_at_;
   std::vector<int> triangles_, found_, meeting_;
   double step_ = 0.0, room_ = 0.0;
-  SurfaceGrid::Distances far_ = {};
+  std::vector<float> far_;    // from a cube, squared: flights that are shorter meet nothing; 0 from beyond
   struct Candidate {
     double x[3], velocity[3];
     int point, cube;
@@ -126,6 +132,7 @@ class ApproachList {
   SurfaceGrid::Batch batch_;
   std::vector<int> entry_of_;         // of a point, or -1
 
+  void find_far(const SurfaceGrid &grid);
   void list(SurfaceGrid &grid, int point, const Eigen::Vector3d &x, const Eigen::Vector3d &velocity);
   void enter(int point, const Eigen::Vector3d &x, const Eigen::Vector3d &velocity, int first);
   struct Way {
@@ -140,6 +147,7 @@ class ApproachList {
     }
     return way;
   }
+  bool look(const SurfaceGrid &grid, int entry, double duration, double extra);
   void find_around(const SurfaceGrid &grid, const Entry &entry, const Way &way, double room);
 };
 

@@ -45,7 +45,6 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
     }
     start_.push_back(static_cast<int>(row_.size()));
   }
-  work_.resize(place_.size());
 }
 
 /* ----------------------------------------------------------------------
@@ -53,28 +52,42 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
    that one does not wait for the other
 ------------------------------------------------------------------------- */
 
-void SparseCholesky::solve(VertexField &x)
+template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *, FIELDS> &x)
 {
   const int n = size();
   const int *start = start_.data(), *row = row_.data();
   const double *value = value_.data();
-  Vector4 *z = work_.data();
-  for (int i = 0; i < n; ++i) z[place_[i]] = x[i];
+  work_.resize((size_t) FIELDS * n);
+  Vector4 *z = work_.data();    // fields of a vertex side by side
+  for (int i = 0; i < n; ++i)
+    for (int f = 0; f < FIELDS; ++f) z[FIELDS * place_[i] + f] = (*x[f])[i];
   for (int j = 0; j < n; ++j) {
-    const Quad here = inverse_diagonal_[j] * quad(z[j]);
-    quad(z[j]) = here;
-    for (int k = start[j]; k < start[j + 1]; ++k) quad(z[row[k]]) -= value[k] * here;
+    Quad here[FIELDS];
+    for (int f = 0; f < FIELDS; ++f)
+      quad(z[FIELDS * j + f]) = here[f] = inverse_diagonal_[j] * quad(z[FIELDS * j + f]);
+    for (int k = start[j]; k < start[j + 1]; ++k)
+      for (int f = 0; f < FIELDS; ++f) quad(z[FIELDS * row[k] + f]) -= value[k] * here[f];
   }
+  constexpr int SUMS = 4;
   for (int j = n - 1; j >= 0; --j) {
-    Quad sum[4] = {quad(z[j]), Quad{}, Quad{}, Quad{}};
+    Quad sum[SUMS][FIELDS] = {};
+    for (int f = 0; f < FIELDS; ++f) sum[0][f] = quad(z[FIELDS * j + f]);
     int k = start[j];
-    for (; k + 4 <= start[j + 1]; k += 4)
-      for (int i = 0; i < 4; ++i) sum[i] -= value[k + i] * quad(z[row[k + i]]);
-    for (; k < start[j + 1]; ++k) sum[0] -= value[k] * quad(z[row[k]]);
-    quad(z[j]) = inverse_diagonal_[j] * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+    for (; k + SUMS <= start[j + 1]; k += SUMS)
+      for (int i = 0; i < SUMS; ++i)
+        for (int f = 0; f < FIELDS; ++f)
+          sum[i][f] -= value[k + i] * quad(z[FIELDS * row[k + i] + f]);
+    for (; k < start[j + 1]; ++k)
+      for (int f = 0; f < FIELDS; ++f) sum[0][f] -= value[k] * quad(z[FIELDS * row[k] + f]);
+    for (int f = 0; f < FIELDS; ++f)
+      quad(z[FIELDS * j + f]) = inverse_diagonal_[j] * ((sum[0][f] + sum[1][f]) + (sum[2][f] + sum[3][f]));
   }
-  for (int i = 0; i < n; ++i) x[i] = z[place_[i]];
+  for (int i = 0; i < n; ++i)
+    for (int f = 0; f < FIELDS; ++f) (*x[f])[i] = z[FIELDS * place_[i] + f];
 }
+
+template void SparseCholesky::solve<1>(const std::array<VertexField *, 1> &);
+template void SparseCholesky::solve<2>(const std::array<VertexField *, 2> &);
 
 double SparseCholesky::memory_usage() const
 {

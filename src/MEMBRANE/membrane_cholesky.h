@@ -18,6 +18,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <array>
 #include <vector>
 
 namespace Membrane_NS {
@@ -30,7 +31,9 @@ class SparseCholesky {
   explicit SparseCholesky(const Eigen::SparseMatrix<double> &a);
   int size() const { return static_cast<int>(place_.size()); }
   /// x = A^-1 x
-  void solve(VertexField &x);
+  void solve(VertexField &x) { solve<1>({&x}); }
+  /// The same for two, in less than the time of one after the other.
+  void solve(VertexField &x, VertexField &y) { solve<2>({&x, &y}); }
   double memory_usage() const;
 
  private:
@@ -38,6 +41,8 @@ class SparseCholesky {
   std::vector<int> start_, row_;        // of G below its diagonal, by columns
   std::vector<double> value_, inverse_diagonal_;
   VertexField work_;
+
+  template <int FIELDS> void solve(const std::array<VertexField *, FIELDS> &x);
 };
 
 }    // namespace Membrane_NS

@@ -119,8 +119,8 @@ class CollisionEvents {
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
   /// By forces on the last point.
   void accelerate_point(const Eigen::Vector3d &a) { points_.back().acceleration = a; }
-  /// A triangle that the last point may meet, and the side it is on.
-  void add_pair(int triangle, int side);
+  /// A triangle that the last point may meet, and the side it is on; ahead: also before it is turned.
+  void add_pair(int triangle, int side, bool ahead = true);
 
   // === The step
 
@@ -167,7 +167,7 @@ class CollisionEvents {
   };
   struct Pair {
     int point, triangle, side;
-    bool hits;
+    bool ahead, hits;
     TriangleHit hit;
   };
   struct Event {

@@ -20,10 +20,14 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <map>
 
 using namespace Membrane_NS;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+// in cubes
+static constexpr double ROUNDING = 1.0e-9;
 
 /* ---------------------------------------------------------------------- */
 
@@ -51,8 +55,10 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
   const double pad = settings.skin + settings.reach;
   const Vector3d end = lo + spacing_ * Vector3d(size_[0], size_[1], size_[2]);
   find_images(surface, vertices, lattice, periodic, end, pad);
-  begin(surface, vertices, lattice, 0.0, 0.0);
+  find_corners(surface, static_cast<int>(vertices.size()));
+  begin(vertices, 0.0, 0.0);
   fill(pad);
+  find_led();
   find_distances();
   listed_ = pad;
 }
@@ -107,18 +113,75 @@ void SurfaceGrid::find_images(const SurfaceFaces &surface,
   }
 }
 
+// few corners are not the vertex itself but one of its images
+
+void SurfaceGrid::find_corners(const SurfaceFaces &surface, int num_vertices)
+{
+  corners_.resize(num_vertices);
+  for (int v = 0; v < num_vertices; ++v) corners_[v] = {v, {0, 0, 0}};
+  std::map<std::pair<int, std::array<int, 3>>, int> others;
+  corners_of_.resize(images_.size());
+  triangles_.resize(images_.size());
+  planes_.resize(images_.size());
+  for (size_t t = 0; t < images_.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Image &image = images_[t];
+      const int vertex = triangles_[t].vertex[k] = surface.faces[image.face][k];
+      triangles_[t].shift[k] = triangles_[t].drift[k] = Vector3d::Zero();
+      std::array<int, 3> n = image.lattice;
+      if (!surface.seams.empty())
+        for (int j = 0; j < 3; ++j) n[j] += surface.seams[image.face][k][j];
+      corners_of_[t][k] = vertex;
+      if (n == std::array<int, 3>{0, 0, 0}) continue;
+      const auto [other, is_new] = others.try_emplace({vertex, n}, corners_.size());
+      if (is_new) corners_.push_back({vertex, n});
+      corners_of_[t][k] = other->second;
+    }
+}
+
 /* ----------------------------------------------------------------------
-   list in each cube the triangles within `pad`: those whose box and whose plane come so near
+   list in each cube the triangles within `pad`: those whose box and whose plane come so near; the one
+   nearest to its centre leads
 ------------------------------------------------------------------------- */
 
 void SurfaceGrid::fill(double pad)
 {
   const size_t num_cubes = (size_t) size_[0] * size_[1] * size_[2];
   start_.assign(num_cubes + 1, 0);
-  std::vector<std::pair<int, int>> entries;    // cube, triangle
+  visit_cubes(pad, [this](int, int first, int last, double, double) {
+    for (int cube = first; cube <= last; ++cube) ++start_[cube + 1];
+  });
+  for (size_t c = 0; c < num_cubes; ++c) start_[c + 1] += start_[c];
+  list_.resize(start_.back());
+  lead_.assign(num_cubes, -1);
+  std::vector<double> nearest(num_cubes, INFINITY);
+  std::vector<int> next(start_.begin(), start_.end() - 1);
+  visit_cubes(pad, [&](int t, int first, int last, double height, double rise) {
+    const Plane &plane = planes_[t];
+    const int row = first / size_[0];
+    const double y = lo_[1] + spacing_ * (row % size_[1] + 0.5), z = lo_[2] + spacing_ * (row / size_[1] + 0.5);
+    const double beside = std::max({plane.lo[1] - y, y - plane.hi[1], plane.lo[2] - z, z - plane.hi[2]});
+    for (int cube = first; cube <= last; ++cube, height += rise) {
+      list_[next[cube]++] = t;
+      const double x = lo_[0] + spacing_ * (cube - row * size_[0] + 0.5);
+      const double distance = std::max({std::fabs(height), beside, plane.lo[0] - x, x - plane.hi[0]});
+      if (distance >= nearest[cube]) continue;
+      nearest[cube] = distance;
+      lead_[cube] = t;
+    }
+  });
+}
+
+/* ----------------------------------------------------------------------
+   rows of cubes that a triangle is listed in: visit(triangle, first cube, last, height of the first one's
+   centre over the plane, what it rises from each to the next)
+------------------------------------------------------------------------- */
+
+template <class Visit> void SurfaceGrid::visit_cubes(double pad, const Visit &visit)
+{
   for (size_t t = 0; t < planes_.size(); ++t) {
     const Plane &plane = planes_[t];
-    std::array<int, 3> from, to, i;
+    std::array<int, 3> from, to;
     for (int k = 0; k < 3; ++k) {
       const double a = (plane.lo[k] - pad - lo_[k]) * inverse_spacing_,
                    b = (plane.hi[k] + pad - lo_[k]) * inverse_spacing_;
@@ -126,21 +189,68 @@ void SurfaceGrid::fill(double pad)
       to[k] = std::min(size_[k] - 1, static_cast<int>(std::floor(b)));
     }
     const Vector3d normal = Vector3d::Map(plane.normal);
-    const double within = pad + 0.5 * spacing_ * normal.lpNorm<1>();
-    for (i[2] = from[2]; i[2] <= to[2]; ++i[2])
-      for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
-        for (i[0] = from[0]; i[0] <= to[0]; ++i[0]) {
-          const Vector3d centre = lo_ + spacing_ * Vector3d(i[0] + 0.5, i[1] + 0.5, i[2] + 0.5);
-          if (std::fabs(normal.dot(centre) + plane.offset) > within) continue;
-          const int cube = (i[2] * size_[1] + i[1]) * size_[0] + i[0];
-          entries.emplace_back(cube, t);
-          ++start_[cube + 1];
-        }
+    const double within = pad + 0.5 * spacing_ * normal.lpNorm<1>(), rise = spacing_ * normal[0];
+    for (int z = from[2]; z <= to[2]; ++z)
+      for (int y = from[1]; y <= to[1]; ++y) {
+        const Vector3d centre = lo_ + spacing_ * Vector3d(from[0] + 0.5, y + 0.5, z + 0.5);
+        const double height = normal.dot(centre) + plane.offset;
+        int first = 0, last = to[0] - from[0];    // of those with heights within bounds
+        if (std::fabs(rise) > ROUNDING * spacing_) {
+          double a = (-within - height) / rise, b = (within - height) / rise;
+          if (rise < 0.0) std::swap(a, b);
+          if (!(b >= 0.0 && a <= last)) continue;
+          first = std::max(first, static_cast<int>(std::ceil(a - ROUNDING)));
+          last = std::min<double>(last, std::floor(b + ROUNDING));
+        } else if (std::fabs(height) > within + ROUNDING)
+          continue;
+        const int row = (z * size_[1] + y) * size_[0] + from[0];
+        if (first <= last) visit(static_cast<int>(t), row + first, row + last, height + first * rise, rise);
+      }
   }
-  for (size_t c = 0; c < num_cubes; ++c) start_[c + 1] += start_[c];
-  list_.resize(entries.size());
-  std::vector<int> next(start_.begin(), start_.end() - 1);
-  for (auto [cube, triangle] : entries) list_[next[cube]++] = triangle;
+}
+
+void SurfaceGrid::find_led()
+{
+  const size_t n = images_.size();
+  std::vector<int> first(n + 2, 0), cubes(lead_.size());    // cubes by lead
+  for (int t : lead_)
+    if (t >= 0) ++first[t + 2];
+  for (size_t t = 0; t < n; ++t) first[t + 2] += first[t + 1];
+  for (size_t c = 0; c < lead_.size(); ++c)
+    if (lead_[c] >= 0) cubes[first[lead_[c] + 1]++] = static_cast<int>(c);
+
+  led_.clear();
+  led_start_.assign(1, 0);
+  std::vector<int> seen(n, -1), seen_corner(corners_.size(), -1);
+  for (int lead = 0; lead < static_cast<int>(n); ++lead) {
+    for (int i = first[lead]; i < first[lead + 1]; ++i)
+      for (int j = start_[cubes[i]]; j < start_[cubes[i] + 1]; ++j) {
+        if (seen[list_[j]] == lead) continue;
+        seen[list_[j]] = lead;
+        for (int corner : corners_of_[list_[j]]) {
+          if (seen_corner[corner] == lead) continue;
+          seen_corner[corner] = lead;
+          led_.push_back(corner);
+        }
+      }
+    led_start_.push_back(static_cast<int>(led_.size()));
+  }
+}
+
+void SurfaceGrid::measure_layers()
+{
+  layers_.resize(planes_.size());
+  for (size_t t = 0; t < planes_.size(); ++t) {
+    Layer &layer = layers_[t];
+    std::copy_n(planes_[t].normal, 3, layer.normal);
+    layer.lo = INFINITY;
+    layer.hi = -INFINITY;
+    for (int j = led_start_[t]; j < led_start_[t + 1]; ++j) {
+      const double h = Vector3d::Map(layer.normal).dot(corner_at_[led_[j]]);
+      layer.lo = std::min(layer.lo, h);
+      layer.hi = std::max(layer.hi, h);
+    }
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -207,54 +317,55 @@ bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matri
   return true;
 }
 
-void SurfaceGrid::begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
-                        const Matrix3d &lattice, double duration, double slack,
+void SurfaceGrid::begin(const std::vector<SurfaceVertex> &vertices, double duration, double slack,
                         const Matrix3d &rate)
 {
-  triangles_.resize(images_.size());
-  planes_.resize(images_.size());
-  slabs_.resize(images_.size());
   slack_ = slack;
   most_moves_ = 0.0;
-  for (size_t t = 0; t < images_.size(); ++t) {
-    const Image &image = images_[t];
-    SurfaceTriangle &triangle = triangles_[t];
-    Plane &plane = planes_[t];
-    std::array<Vector3d, 3> x, v;
-    double fastest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      std::array<int, 3> n = image.lattice;
-      if (!surface.seams.empty())
-        for (int j = 0; j < 3; ++j) n[j] += surface.seams[image.face][k][j];
-      const int vertex = triangle.vertex[k] = surface.faces[image.face][k];
-      const MovingPoint &path = vertices[vertex].path;
-      x[k] = path.origin;
-      v[k] = path.velocity;
-      if (n[0] || n[1] || n[2]) {
-        const Vector3d images(n[0], n[1], n[2]);
-        x[k] += triangle.shift[k] = lattice * images;
-        v[k] += triangle.drift[k] = rate * images;
-      } else
-        triangle.shift[k] = triangle.drift[k] = Vector3d::Zero();
-      fastest = std::max(fastest, v[k].squaredNorm());
+  const size_t n = corners_.size(), num_vertices = vertices.size();
+  corner_at_.resize(n);
+  corner_velocity_.resize(n);
+  corner_speed_.resize(n);
+  for (size_t c = 0; c < n; ++c) {
+    const MovingPoint &path = vertices[corners_[c].vertex].path;
+    corner_at_[c] = path.origin;
+    corner_velocity_[c] = path.velocity;
+    if (c >= num_vertices) {
+      const auto &l = corners_[c].lattice;
+      const Vector3d images(l[0], l[1], l[2]);
+      corner_at_[c] += lattice_ * images;
+      corner_velocity_[c] += rate * images;
     }
-    Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
+    corner_speed_[c] = corner_velocity_[c].norm();
+  }
+
+  for (size_t t = 0; t < planes_.size(); ++t) {
+    Plane &plane = planes_[t];
+    const auto &corner = corners_of_[t];
+    for (int k = 0; k < 3; ++k)
+      if (corner[k] >= static_cast<int>(num_vertices)) {
+        const auto &l = corners_[corner[k]].lattice;
+        const Vector3d images(l[0], l[1], l[2]);
+        triangles_[t].shift[k] = lattice_ * images;
+        triangles_[t].drift[k] = rate * images;
+      }
+    const Vector3d &a = corner_at_[corner[0]], &b = corner_at_[corner[1]], &c = corner_at_[corner[2]];
+    Vector3d normal = (b - a).cross(c - a);
     const double size = normal.norm();
     if (size > 0.0) normal /= size;
-    const double offset = -normal.dot(x[0]);
-    const Vector3d lo = x[0].cwiseMin(x[1]).cwiseMin(x[2]), hi = x[0].cwiseMax(x[1]).cwiseMax(x[2]);
-    Vector3d::Map(plane.normal) = normal;
-    plane.offset = offset;
-    Vector3d::Map(plane.lo) = lo;
-    Vector3d::Map(plane.hi) = hi;
-    plane.moves = duration * std::sqrt(fastest) + slack;
+    double rise[3], fastest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      rise[k] = normal.dot(corner_velocity_[corner[k]]);
+      fastest = std::max(fastest, corner_speed_[corner[k]]);
+      plane.normal[k] = normal[k];
+      plane.lo[k] = std::min({a[k], b[k], c[k]});
+      plane.hi[k] = std::max({a[k], b[k], c[k]});
+    }
+    plane.offset = -normal.dot(a);
+    plane.moves = duration * fastest + slack;
+    plane.up = duration * std::max({rise[0], rise[1], rise[2]}) + slack;
+    plane.down = duration * std::min({rise[0], rise[1], rise[2]}) - slack;
     most_moves_ = std::max(most_moves_, plane.moves);
-
-    const std::array<double, 3> rise = {normal.dot(v[0]), normal.dot(v[1]), normal.dot(v[2])};
-    slabs_[t] = {{normal[0], normal[1], normal[2]},
-                 offset,
-                 duration * std::max({rise[0], rise[1], rise[2]}) + slack,
-                 duration * std::min({rise[0], rise[1], rise[2]}) - slack};
   }
   seen_.assign(images_.size(), 0);
   clock_ = 0;
@@ -290,6 +401,25 @@ void SurfaceGrid::collect(const Range &range, std::vector<int> &found, const Nea
           found.push_back(t);
         }
       }
+}
+
+// without branches, so that compilers turn it into vectors; what is not a number is not inside
+
+void SurfaceGrid::find_cubes(const double *x, int n, int *cubes) const
+{
+  const double lo0 = lo_[0], lo1 = lo_[1], lo2 = lo_[2], scale = inverse_spacing_;
+  const double size0 = size_[0], size1 = size_[1], size2 = size_[2];
+  const int row = size_[0], layer = size_[0] * size_[1];
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double s0 = (x[3 * i] - lo0) * scale, s1 = (x[3 * i + 1] - lo1) * scale,
+                 s2 = (x[3 * i + 2] - lo2) * scale;
+    const bool inside = (s0 >= 0.0) & (s0 < size0) & (s1 >= 0.0) & (s1 < size1) & (s2 >= 0.0) &
+        (s2 < size2);
+    const int at0 = static_cast<int>(inside ? s0 : 0.0), at1 = static_cast<int>(inside ? s1 : 0.0),
+              at2 = static_cast<int>(inside ? s2 : 0.0);
+    cubes[i] = inside ? at2 * layer + at1 * row + at0 : -1;
+  }
 }
 
 SurfaceGrid::Distances SurfaceGrid::distances(double tube) const
@@ -387,6 +517,8 @@ double SurfaceGrid::memory_usage() const
 {
   return away_.capacity() + sizeof(int) * (start_.capacity() + list_.capacity()) +
       sizeof(SurfaceTriangle) * triangles_.capacity() + sizeof(Plane) * planes_.capacity() +
-      sizeof(Slab) * slabs_.capacity() +
-      sizeof(Image) * images_.capacity() + sizeof(Vector3d) * built_at_.capacity();
+      sizeof(Image) * images_.capacity() + sizeof(Vector3d) * built_at_.capacity() +
+      sizeof(int) * (lead_.capacity() + led_start_.capacity() + led_.capacity()) +
+      sizeof(Corner) * corners_.capacity() + sizeof(Layer) * layers_.capacity() +
+      3 * sizeof(int) * corners_of_.capacity() + 7 * sizeof(double) * corner_at_.capacity();
 }

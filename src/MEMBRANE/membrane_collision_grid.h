@@ -51,6 +51,8 @@ class SurfaceGrid {
   struct Image {
     int face;
     std::array<int, 3> lattice;
+
+    bool operator==(const Image &b) const { return face == b.face && lattice == b.lattice; }
   };
 
   /// For points between lo and hi. Lattice columns are the box vectors.
@@ -63,13 +65,13 @@ class SurfaceGrid {
 
   /// Work out what the triangles do in this step; vertices may be deflected by up to `slack`. rate: at
   /// which the lattice changes.
-  void begin(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
-             const Eigen::Matrix3d &lattice, double duration, double slack,
+  void begin(const std::vector<SurfaceVertex> &vertices, double duration, double slack,
              const Eigen::Matrix3d &rate = Eigen::Matrix3d::Zero());
   const std::vector<SurfaceTriangle> &triangles() const { return triangles_; }
   const std::vector<Image> &images() const { return images_; }
-  /// How far a corner comes in this step, at most.
+  /// How far a corner comes in this step, at most; and one of that triangle.
   double most_moves() const { return most_moves_; }
+  double moves(int triangle) const { return planes_[triangle].moves; }
 
   /// Triangles that may come within `reach` of x in this step, each once; false if that goes
   /// beyond the grid.
@@ -77,10 +79,7 @@ class SurfaceGrid {
   /// Whether a triangle may.
   bool comes_within(int triangle, const double *x, double reach) const
   {
-    const Plane &p = planes_[triangle];
-    double distance = std::fabs(height(p, x));
-    for (int k = 0; k < 3; ++k) distance = std::max({distance, p.lo[k] - x[k], x[k] - p.hi[k]});
-    return distance <= reach + p.moves;
+    return off(triangle, x) <= reach + planes_[triangle].moves;
   }
   /// Triangles that are now within `tube` of the straight line from x to `end`, and maybe others, each
   /// once; false if that goes beyond the grid.
@@ -106,15 +105,13 @@ class SurfaceGrid {
   /// triangle.
   bool can_meet(int triangle, const double *x, const double *path, double extra = 0.0) const
   {
-    const Slab &s = slabs_[triangle];
-    const double first =
-        s.normal[0] * x[0] + s.normal[1] * x[1] + s.normal[2] * x[2] + s.offset;
-    const double last =
-        first + s.normal[0] * path[0] + s.normal[1] * path[1] + s.normal[2] * path[2];
-    if ((first > slack_ + extra && last > s.up + extra) ||
-        (first < -slack_ - extra && last < s.down - extra))
-      return false;
     const Plane &p = planes_[triangle];
+    const double first = height(p, x);
+    const double last =
+        first + p.normal[0] * path[0] + p.normal[1] * path[1] + p.normal[2] * path[2];
+    if ((first > slack_ + extra && last > p.up + extra) ||
+        (first < -slack_ - extra && last < p.down - extra))
+      return false;
     const double room = p.moves + extra;
     bool meets = true;
     for (int k = 0; k < 3; ++k)
@@ -122,21 +119,32 @@ class SurfaceGrid {
           std::min(x[k], x[k] + path[k]) <= p.hi[k] + room;
     return meets;
   }
+  /// How far from a triangle a place is at the start of the step, or less.
+  double off(int triangle, const double *x) const
+  {
+    const Plane &p = planes_[triangle];
+    double distance = std::fabs(height(p, x));
+    for (int k = 0; k < 3; ++k) distance = std::max({distance, p.lo[k] - x[k], x[k] - p.hi[k]});
+    return distance;
+  }
 
   /// Squares of lengths, by how many cubes away the next triangles are.
   using Distances = std::array<double, MOST_AWAY + 1>;
   /// Of what is clear around a place, less `tube`.
   Distances distances(double tube) const;
-  /// The cube of a place, or -1 if it is beyond the grid.
-  int cube(const double *x) const
+  /// The cubes of n places, three numbers each; -1 for those beyond the grid.
+  void find_cubes(const double *x, int n, int *cubes) const;
+  /** Find layers between two planes that hold all triangles known to a cube, where they are now: for
+      comes_to_layer(), which tells from one look what a cube's triangles have in common. */
+  void measure_layers();
+  /// Whether a straight line comes within `margin` of the layer of a cube.
+  bool comes_to_layer(int cube, const double *x, const double *end, double margin) const
   {
-    std::array<int, 3> at;
-    for (int k = 0; k < 3; ++k) {
-      const double s = (x[k] - lo_[k]) * inverse_spacing_;
-      if (!(s >= 0.0 && s < size_[k])) return -1;
-      at[k] = static_cast<int>(s);
-    }
-    return (at[2] * size_[1] + at[1]) * size_[0] + at[0];
+    if (lead_[cube] < 0) return false;
+    const Layer &layer = layers_[lead_[cube]];
+    const double a = layer.normal[0] * x[0] + layer.normal[1] * x[1] + layer.normal[2] * x[2],
+                 b = layer.normal[0] * end[0] + layer.normal[1] * end[1] + layer.normal[2] * end[2];
+    return std::min(a, b) <= layer.hi + margin && std::max(a, b) >= layer.lo - margin;
   }
   int num_cubes() const { return size_[0] * size_[1] * size_[2]; }
   int away(int cube) const { return away_[cube]; }
@@ -144,15 +152,12 @@ class SurfaceGrid {
   double memory_usage() const;
 
  private:
-  // of a triangle at the start of the step: its plane and the box around it
+  // of a triangle at the start of the step: its plane and the box around it. All of it is between two
+  // planes, at the start `slack_` to either side of that plane, at the end at heights of up and down over it
   struct Plane {
     double normal[3], offset, lo[3], hi[3];
     double moves;    // how far its corners come
-  };
-  // all of it is between two planes, at the start of the step `slack_` to either side of the plane, at the
-  // end at heights of up and down over it
-  struct Slab {
-    double normal[3], offset, up, down;
+    double up, down;
   };
   Settings settings_ = {};
   Eigen::Vector3d lo_;
@@ -167,9 +172,25 @@ class SurfaceGrid {
   std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles or beyond the grid, or more
   std::vector<int> start_, list_;
 
+  // Of the triangles that a cube knows, the nearest to its centre leads it: of its normal are the planes
+  // between which all corners are of all the cubes that it leads.
+  std::vector<int> lead_;
+  struct Corner {
+    int vertex;
+    std::array<int, 3> lattice;
+  };
+  std::vector<Corner> corners_;                    // each once: the first are the vertices themselves
+  std::vector<std::array<int, 3>> corners_of_;    // of a triangle
+  std::vector<int> led_start_, led_;              // corners, by leading triangle
+  struct Layer {
+    double normal[3], lo, hi;
+  };
+  std::vector<Layer> layers_;
+  std::vector<Eigen::Vector3d> corner_at_, corner_velocity_;    // in this step
+  std::vector<double> corner_speed_;
+
   std::vector<SurfaceTriangle> triangles_;
   std::vector<Plane> planes_;
-  std::vector<Slab> slabs_;
   std::vector<int> seen_;
   int clock_ = 0;
 
@@ -181,6 +202,7 @@ class SurfaceGrid {
                    const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
                    const Eigen::Vector3d &hi, double pad);
   void fill(double pad);
+  template <class Visit> void visit_cubes(double pad, const Visit &visit);
   // the cubes that a box comes to; false if it leaves the grid
   struct Range {
     std::array<int, 3> from, to;
@@ -191,6 +213,8 @@ class SurfaceGrid {
   // no triangle is nearer to a place, as far as is known without looking at any
   double clear(int away) const { return away == 0 ? 0.0 : listed_ + (away - 1.0) * spacing_; }
   void find_distances();
+  void find_corners(const SurfaceFaces &surface, int num_vertices);
+  void find_led();
 };
 
 }    // namespace Membrane_NS

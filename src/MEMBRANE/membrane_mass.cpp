@@ -214,6 +214,29 @@ void MassOperator::solve_mask(const VertexField &b, VertexField &x)
   solve_direct(x, x);
 }
 
+void MassOperator::solve_mask(const VertexField &b, const VertexField &c, VertexField &x,
+                              VertexField &y)
+{
+  if (!factor_) {
+    chebyshev(b, x);
+    chebyshev(c, y);
+    return;
+  }
+  x.resize(part_.size());
+  y.resize(part_.size());
+  for (int i = 0; i < part_.owned; ++i) {
+    quad(x[i]) = quad(b[i]) / spoke_[i];
+    quad(y[i]) = quad(c[i]) / spoke_[i];
+  }
+  part_.gather(x, whole_);
+  part_.gather(y, other_);
+  factor_->solve(whole_, other_);
+  for (int i = 0; i < part_.owned; ++i) {
+    x[i] = whole_[part_.vertices[i]];
+    y[i] = other_[part_.vertices[i]];
+  }
+}
+
 void MassOperator::chebyshev(const VertexField &b, VertexField &x)
 {
   constexpr int TOGETHER = 8;    // passes: their layers fit into a second-level cache
@@ -363,6 +386,7 @@ void MassOperator::factorize(const Topology &topology, const std::vector<double>
   matrix.setFromTriplets(entries.begin(), entries.end());
   factor_ = std::make_unique<SparseCholesky>(matrix);
   whole_.assign(topology.num_vertices(), Vector4{});
+  other_ = whole_;
 }
 
 void MassOperator::solve_direct(const VertexField &b, VertexField &x)

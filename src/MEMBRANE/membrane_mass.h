@@ -123,6 +123,8 @@ class MassOperator {
   void apply_mask(VertexField &x, VertexField &y);
   /// x = L^-1 b, to the tolerance of the settings.
   void solve_mask(const VertexField &b, VertexField &x);
+  /// The same for two, y = L^-1 c.
+  void solve_mask(const VertexField &b, const VertexField &c, VertexField &x, VertexField &y);
   /// The entries of L at an owned vertex and at each of its neighbours.
   double mask_centre(int i) const { return centre_[i]; }
   double mask_spoke(int i) const { return spoke_[i]; }
@@ -165,7 +167,7 @@ class MassOperator {
   std::vector<double> diagonal_;
 
   std::unique_ptr<SparseCholesky> factor_;    // if direct: of S (VERTEX) or M (CONSISTENT)
-  VertexField whole_;                         // by vertex of the topology
+  VertexField whole_, other_;                         // by vertex of the topology
 
   void build_rings(const Topology &topology);
   void build_rows(const Topology &topology, const std::vector<double> &masses,

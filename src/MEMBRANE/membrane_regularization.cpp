@@ -69,21 +69,28 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
     worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
     if (!energy.empty()) energy[slot] += modulus[slot] * (ratio - 1.0);
 
-    for (int k = 0; k < 3; ++k) {
+    // -modulus/area (d dirichlet - ratio d area); what the three corners feel sums to zero
+
+    const double stretch = 2.0 * INVERSE_4_SQRT_3 * modulus[slot] / area,
+                 spread = 0.25 * modulus[slot] * ratio / (area * area);
+    Vector3d force[3];
+    for (int k = 0; k < 2; ++k) {
       const Vector3d &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-      const Vector3d d_dirichlet = 2.0 * INVERSE_4_SQRT_3 * (2.0 * a - b - c);
-      const Vector3d d_area = 0.5 * normal.cross(c - b) / twice_area;
-      const Vector3d force = -modulus[slot] / area * (d_dirichlet - ratio * d_area);
-      for (int i = 0; i < 3; ++i) f[corner[k]][i] += force[i];
-      if (virial.empty()) continue;
-      const Vector3d r = a - p[0];
+      force[k] = spread * normal.cross(c - b) - stretch * (2.0 * a - b - c);
+    }
+    force[2] = -force[0] - force[1];
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) f[corner[k]][i] += force[k][i];
+    if (virial.empty()) continue;
+    for (int k = 1; k < 3; ++k) {
+      const Vector3d r = p[k] - p[0];
       double *v = &virial[6 * static_cast<size_t>(slot)];
-      v[0] += r[0] * force[0];
-      v[1] += r[1] * force[1];
-      v[2] += r[2] * force[2];
-      v[3] += r[0] * force[1];
-      v[4] += r[0] * force[2];
-      v[5] += r[1] * force[2];
+      v[0] += r[0] * force[k][0];
+      v[1] += r[1] * force[k][1];
+      v[2] += r[2] * force[k][2];
+      v[3] += r[0] * force[k][1];
+      v[4] += r[0] * force[k][2];
+      v[5] += r[1] * force[k][2];
     }
   }
   return worst;

@@ -27,6 +27,10 @@ using Membrane_NS::FaceGroup;
 using Membrane_NS::FaceIntegrals;
 using Membrane_NS::FaceModel;
 
+// image flags of an atom in the box itself
+static constexpr imageint NOT_MOVED = (static_cast<imageint>(IMGMAX) << IMG2BITS) |
+    (static_cast<imageint>(IMGMAX) << IMGBITS) | IMGMAX;
+
 /* ---------------------------------------------------------------------- */
 
 MeshTotals::MeshTotals(LAMMPS *lmp) : Pointers(lmp) {}
@@ -62,9 +66,11 @@ void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &
       const int face = group.face[std::min(s, group.nfaces - 1)];
       const int owner = atom->map(mesh->tag(mesh->topology().face(face)[0]));
       const Total &total = parts[component_of(group, s)];
+      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
+      std::copy_n(total.centre, 3, origin);
+      if (atom->image[owner] == NOT_MOVED) continue;
       double unwrapped[3];
       domain->unmap(atom->x[owner], atom->image[owner], unwrapped);
-      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
       for (int k = 0; k < 3; ++k) origin[k] = total.centre[k] - (unwrapped[k] - atom->x[owner][k]);
     }
 }

@@ -159,21 +159,20 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
     bins.drawn.resize(3 * (size_t) count);
     bins.label.resize(count);
   }
+  if (!offsets && count > 0) grid.find_cells(x[first], count, bins.cell.data());
   for (int i = 0; i < count; ++i) {
     const int j = first + i;
+    int &c = bins.cell[i];
     if (!dense && !solvent.has(j)) {
-      bins.cell[i] = -1;
+      c = -1;
       continue;
     }
-    int c;
     if (offsets) {
       c = grid.cell(x[j], &bins.offset[3 * (size_t) i]);
       bins.label[i] = atom->tag[j];
-    } else
-      c = grid.cell(x[j]);
+    }
     if (c < 0) lost = j;
     if (side && c >= 0 && side_of(x[j], side[j])) c += cells;
-    bins.cell[i] = c;
   }
   if (lost >= 0)
     error->one(FLERR,

@@ -248,6 +248,38 @@ void SRDGrid::place(const double *fractions)
   std::copy_n(fractions, 3, shift);
 }
 
+/* ----------------------------------------------------------------------
+   in vectors, for positions at most once through the boundary; the others are looked at one by one
+------------------------------------------------------------------------- */
+
+void SRDGrid::find_cells(const double *x, int count, int *cells) const
+{
+  constexpr int ELSEWHERE = -2;
+  const double corner0 = corner[0], corner1 = corner[1], corner2 = corner[2];
+  const double m0 = inverse[0], m1 = inverse[1], m2 = inverse[2], m3 = inverse[3], m4 = inverse[4],
+               m5 = inverse[5];
+  const double shift0 = shift[0], shift1 = shift[1], shift2 = shift[2];
+  int turn[3];    // what passing through the boundary adds
+  for (int k = 0; k < 3; ++k) turn[k] = periodic[k] ? n[k] : 0;
+  const int start0 = start[0], start1 = start[1], start2 = start[2];
+  const int n0 = n[0], n1 = n[1], n2 = n[2], turn0 = turn[0], turn1 = turn[1], turn2 = turn[2];
+  const int length0 = length[0], length1 = length[1], length2 = length[2];
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const double d0 = x[3 * i] - corner0, d1 = x[3 * i + 1] - corner1, d2 = x[3 * i + 2] - corner2;
+    int c0 = static_cast<int>(std::floor(m0 * d0 + m5 * d1 + m4 * d2 - shift0)) - start0;
+    int c1 = static_cast<int>(std::floor(m1 * d1 + m3 * d2 - shift1)) - start1;
+    int c2 = static_cast<int>(std::floor(m2 * d2 - shift2)) - start2;
+    c0 += c0 < 0 ? turn0 : c0 >= n0 ? -turn0 : 0;
+    c1 += c1 < 0 ? turn1 : c1 >= n1 ? -turn1 : 0;
+    c2 += c2 < 0 ? turn2 : c2 >= n2 ? -turn2 : 0;
+    const bool here = (c0 >= 0) & (c0 < length0) & (c1 >= 0) & (c1 < length1) & (c2 >= 0) & (c2 < length2);
+    cells[i] = here ? (c2 * length1 + c1) * length0 + c0 : ELSEWHERE;
+  }
+  for (int i = 0; i < count; ++i)
+    if (cells[i] == ELSEWHERE) cells[i] = cell(x + 3 * (size_t) i);
+}
+
 int SRDGrid::cell(const double *x, double *offset) const
 {
   double t[3], f[3];
@@ -271,7 +303,18 @@ bool SRDGrid::strayed(const double *x) const
   return false;
 }
 
-void SRDGrid::bring_back(double *x, imageint &image) const
+void SRDGrid::find_outside(const double *x, int count, int *outside) const
+{
+  const double *lo = domain->boxlo, *hi = domain->boxhi;
+  const double lo0 = lo[0], lo1 = lo[1], lo2 = lo[2], hi0 = hi[0], hi1 = hi[1], hi2 = hi[2];
+  const int tilted = domain->triclinic;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i)
+    outside[i] = tilted | !((x[3 * i] >= lo0) & (x[3 * i] < hi0) & (x[3 * i + 1] >= lo1) &
+                            (x[3 * i + 1] < hi1) & (x[3 * i + 2] >= lo2) & (x[3 * i + 2] < hi2));
+}
+
+void SRDGrid::wrap(double *x, imageint &image) const
 {
   double t[3];
   grid_coordinates(x, t);

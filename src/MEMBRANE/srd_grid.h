@@ -72,6 +72,8 @@ class SRDGrid : protected Pointers {
     grid_coordinates(x, t);
     return cell_at(t);
   }
+  /// The same for many positions, three numbers each.
+  void find_cells(const double *x, int count, int *cells) const;
   /// The same, and the position relative to the centre of the cell.
   int cell(const double *x, double *offset) const;
   /// How many times the grid, repeated periodically, has been passed on the way to a position.
@@ -84,14 +86,10 @@ class SRDGrid : protected Pointers {
   }
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
+  /// Whether each of many positions is beyond the faces of the box, or may be if that is tilted.
+  void find_outside(const double *x, int count, int *outside) const;
   /// Back into the box in periodic directions in which this rank has all of it.
-  void wrap(double *x, imageint &image) const
-  {
-    const double *lo = domain->boxlo, *hi = domain->boxhi;
-    const bool inside = (x[0] >= lo[0]) & (x[0] < hi[0]) & (x[1] >= lo[1]) & (x[1] < hi[1]) &
-        (x[2] >= lo[2]) & (x[2] < hi[2]);
-    if (!inside || domain->triclinic) bring_back(x, image);
-  }
+  void wrap(double *x, imageint &image) const;
   /// Walls: the position at fractions f in [0, 1) of a cell, which may be outside of the box.
   void position_in_cell(int cell, const double *f, double *x) const;
   /// Whether a cell is partly outside of the box.
@@ -100,8 +98,6 @@ class SRDGrid : protected Pointers {
   double memory_usage() const;
 
  private:
-  void bring_back(double *x, imageint &image) const;
-
   double wanted;
   int n[3], all[3];             // divisions of the box; cells
   bool periodic[3], whole[3];    // whole: this rank's sub-domain spans the box

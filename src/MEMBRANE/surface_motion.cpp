@@ -524,10 +524,36 @@ void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
    at the end of the step already, which velocities that change now change, too.
 ------------------------------------------------------------------------- */
 
+void SurfaceMotion::apply(const VertexField &change)
+{
+  q = change;
+  q.resize(part().size());
+  for (int i = 0; i < part().owned; ++i)
+    if (!is_free(part().vertices[i])) q[i] = {};
+  matrix().solve_mask(q, r);
+  change_velocities();
+}
+
+void SurfaceMotion::apply(const std::vector<CollisionEvents::Change> &changes)
+{
+  q.resize(part().size());
+  moved.resize(part().size());
+  for (int i = 0; i < part().owned; ++i) {
+    const CollisionEvents::Change &change = changes[part().vertices[i]];
+    q[i] = {{change.velocity[0], change.velocity[1], change.velocity[2], 0.0}};
+    moved[i] = {{change.position[0], change.position[1], change.position[2], 0.0}};
+  }
+  matrix().solve_mask(q, moved, r, detour);
+  change_velocities();
+  for (int i = 0; i < part().owned; ++i)
+    if (is_free(part().vertices[i]))
+      for (int k = 0; k < 3; ++k) atom->x[part().atom_of(i)][k] += detour[i].c[k];
+}
+
+// of masses by q, of control points by r
+
 void SurfaceMotion::change_velocities()
 {
-  r.resize(part().size());
-  matrix().solve_mask(q, r);
   for (int i = 0; i < part().owned; ++i) {
     if (!is_free(part().vertices[i])) continue;
     const int j = part().atom_of(i);
@@ -539,33 +565,6 @@ void SurfaceMotion::change_velocities()
   }
 }
 
-void SurfaceMotion::apply(const VertexField &change)
-{
-  q = change;
-  q.resize(part().size());
-  for (int i = 0; i < part().owned; ++i)
-    if (!is_free(part().vertices[i])) q[i] = {};
-  change_velocities();
-}
-
-void SurfaceMotion::apply(const std::vector<CollisionEvents::Change> &changes)
-{
-  q.resize(part().size());
-  auto load = [&](Vector3d CollisionEvents::Change::*what) {
-    for (int i = 0; i < part().owned; ++i) {
-      const Vector3d &d = changes[part().vertices[i]].*what;
-      q[i] = {{d[0], d[1], d[2], 0.0}};
-    }
-  };
-  load(&CollisionEvents::Change::velocity);
-  change_velocities();
-  load(&CollisionEvents::Change::position);
-  matrix().solve_mask(q, r);
-  for (int i = 0; i < part().owned; ++i)
-    if (is_free(part().vertices[i]))
-      for (int k = 0; k < 3; ++k) atom->x[part().atom_of(i)][k] += r[i].c[k];
-}
-
 double SurfaceMotion::memory_usage() const
 {
   return mass.memory_usage() + sizeof(SurfaceVertex) * vertices.capacity() +
@@ -575,6 +574,6 @@ double SurfaceMotion::memory_usage() const
       (finer ? finer->memory_usage() : 0.0) +
       faces.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int)) +
       sizeof(Vector4) *
-      (q.capacity() + moved.capacity() + r.capacity() + velocity.capacity() + drift.capacity() +
+      (q.capacity() + moved.capacity() + r.capacity() + detour.capacity() + velocity.capacity() + drift.capacity() +
        acceleration.capacity());
 }

@@ -133,7 +133,7 @@ class SurfaceMotion : protected Pointers {
   Membrane_NS::VertexField drift;           // velocities of owned control points in it
   Membrane_NS::VertexField velocity;        // of owned masses for the rest of it
   Membrane_NS::VertexField acceleration;
-  Membrane_NS::VertexField q, moved, r;
+  Membrane_NS::VertexField q, moved, r, detour;
 
   void check_movers();
   void find_components();

@@ -46,13 +46,13 @@ using Membrane_NS::SurfaceImpulse;
 // see TriangleCollision: far above rounding, also of coordinates in a large box
 static constexpr double CONTACT = 1.0e-10;
 // the grid is built anew when vertices have moved so far; its cubes know triangles within both
-static constexpr double SKIN = 0.3, REACH = 0.45;
+static constexpr double SKIN = 0.35, REACH = 0.45;
 // vertices may be deflected so far in one step, points so far beyond where their speed takes them;
 // looked for in the first attempt, and at most
 static constexpr double FIRST_SLACK = 0.004, MOST_SLACK = 0.15;
 // and what one step needs is likely too much for others
 static constexpr double LESS_SLACK = 0.99;
-static constexpr double SPACING = 0.7;
+static constexpr double SPACING = 1.2;
 // of the list of solvent that comes near, to begin with
 static constexpr double MARGIN = 0.2;
 // and for it solvent moves so far, in root mean squares: further, and there would be many to look at
@@ -166,10 +166,11 @@ void SurfaceObstacle::build_grid(const Flight &flight)
   s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
+  const auto images = grid.images();
   grid.build(motion.surface(), *vertices, motion.lattice_now(), motion.periodic(), lo - margin,
              hi + margin, s);
   built_epoch = motion.epoch();
-  approaching.clear();
+  if (grid.images() != images) approaching.clear();    // it knows triangles by their numbers
   if (comm->nprocs > 1 && !everywhere) find_shared();
 }
 
@@ -199,8 +200,7 @@ bool SurfaceObstacle::gather(const Flight &flight)
   const bool have_walls = walls.any();
   near.clear();
   apart.assign(have_walls ? atom->nlocal : 0, 0);
-  grid.begin(motion.surface(), *vertices, motion.lattice_now(), flight.dt, vertex_slack,
-             motion.lattice_rate());
+  grid.begin(*vertices, flight.dt, vertex_slack, motion.lattice_rate());
   events.begin(*vertices, grid.triangles(), flight.dt, vertex_slack, walls, motion.middle());
   if (solvent.count() == 0) return true;
   if (!approaching.serves(grid, *vertices, flight.dt)) list_approaching(flight);
@@ -208,8 +208,10 @@ bool SurfaceObstacle::gather(const Flight &flight)
   bool all_found = true;
   const double *masses = solvent.mass();
   auto fetch = [&](int i) {    // from all over the memory, all at once
-    __builtin_prefetch(atom->x[0] + 3 * (size_t) i);
-    __builtin_prefetch(atom->v[0] + 3 * (size_t) i);
+    for (int k : {0, 2}) {
+      __builtin_prefetch(atom->x[0] + 3 * (size_t) i + k);
+      __builtin_prefetch(atom->v[0] + 3 * (size_t) i + k);
+    }
     __builtin_prefetch(masses + i);
     __builtin_prefetch(atom->tag + i);
     __builtin_prefetch(atom->image + i);
@@ -241,8 +243,8 @@ void SurfaceObstacle::list_approaching(const Flight &flight)
   const double far = LONGEST * motion.surface_edge() / std::max(speed, 1.0e-300);
   approaching.begin(grid, *vertices, atom->nlocal, std::max(flight.dt, std::min(flight.horizon, far)),
                     std::max(flight.dt, update->dt), 2.0 * point_slack);
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (solvent.has(i)) approaching.offer(grid, i, atom->x[i], atom->v[i]);
+  approaching.offer(grid, solvent.first(), solvent.last(), atom->x[0], atom->v[0],
+                    [&](int i) { return solvent.has(i); });
   approaching.end(grid);
 }
 
@@ -266,10 +268,13 @@ void SurfaceObstacle::note(int i, const std::vector<int> &triangles, const Fligh
   events.add_point(path, 1.0 / mass, atom->tag[i], flight.dt * path.velocity.norm() + point_slack);
   if (forces_on_solvent)
     events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
+  const Vector3d way = flight.dt * path.velocity;
   for (int t : triangles) {
     const auto &image = grid.images()[t];
-    events.add_pair(t, regions.side(regions.region[i], atom->image[i],
-                                    motion.component(image.face), image.lattice));
+    events.add_pair(t,
+                    regions.side(regions.region[i], atom->image[i], motion.component(image.face),
+                                 image.lattice),
+                    grid.can_meet(t, path.origin.data(), way.data()));
   }
 }
 

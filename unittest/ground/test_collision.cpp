@@ -62,6 +62,16 @@ double volume(const MovingPoint &p, const Corners &c, double t)
   return (p.at(t) - a).dot((c[1].at(t) - a).cross(c[2].at(t) - a));
 }
 
+static void offer_all(ApproachList &list, const SurfaceGrid &grid, const std::vector<MovingPoint> &points)
+{
+  std::vector<Vector3d> x, v;
+  for (const MovingPoint &point : points) {
+    x.push_back(point.origin);
+    v.push_back(point.velocity);
+  }
+  list.offer(grid, 0, static_cast<int>(points.size()), x[0].data(), v[0].data(), [](int) { return true; });
+}
+
 /** A surface of point masses and the points that fly beside it, in a periodic box; finer surfaces only
     where nothing is periodic. */
 struct Gas {
@@ -195,13 +205,12 @@ struct Gas {
     auto outcome = CollisionEvents::Outcome::VERTEX_STRAYED;
     for (int attempt = 0; outcome != CollisionEvents::Outcome::DONE; ++attempt) {
       ASSERT_LT(attempt, 20);
-      grid.begin(surface, vertices, mesh.lattice, time_step, slack);
+      grid.begin(vertices, time_step, slack);
       events.begin(vertices, grid.triangles(), time_step, slack);
       near.clear();
       if (!list.serves(grid, vertices, time_step)) {
         list.begin(grid, vertices, points.size(), HORIZON * time_step, time_step, 2.0 * more);
-        for (size_t i = 0; i < points.size(); ++i)
-          list.offer(grid, i, points[i].origin.data(), points[i].velocity.data());
+        offer_all(list, grid, points);
         list.end(grid);
         ++lists;
       }
@@ -663,11 +672,10 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
       gas.build({0.15, 0.1, 0.2});
       list.clear();
     }
-    gas.grid.begin(gas.surface, gas.vertices, mesh.lattice, dt, 0.002);
+    gas.grid.begin(gas.vertices, dt, 0.002);
     if (!list.serves(gas.grid, gas.vertices, dt)) {
       list.begin(gas.grid, gas.vertices, gas.points.size(), horizon * dt, dt, 0.01);
-      for (size_t i = 0; i < gas.points.size(); ++i)
-        list.offer(gas.grid, i, gas.points[i].origin.data(), gas.points[i].velocity.data());
+      offer_all(list, gas.grid, gas.points);
       list.end(gas.grid);
       ++lists;
     }
@@ -759,10 +767,10 @@ struct Sheet {
         grid.build(surface, vertices, lattice, {false, false, false}, Vector3d(-2, -2, -1.995),
                    Vector3d(2, 2, 2), {0.1, 0.1, 0.2});
       ASSERT_TRUE(grid.serves(vertices, lattice));
-      grid.begin(surface, vertices, lattice, DT, 1.0e-6);
+      grid.begin(vertices, DT, 1.0e-6);
       if (!list.serves(grid, vertices, DT)) {
         list.begin(grid, vertices, 1, horizon * DT, DT, 0.0);
-        list.offer(grid, 0, point.origin.data(), point.velocity.data());
+        offer_all(list, grid, {point});
         list.end(grid);
         ++lists;
       }
