@@ -350,7 +350,6 @@ void ComputeHDModes::measure_sphere()
 {
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   totals.measure(groups, model, integrals, true);
-  totals.place_origins(groups, model);
 
   double my_moments[4] = {0.0, 0.0, 0.0, 0.0}, moments[4];
   for (const FaceGroup &group : groups) sphere_moments(group, x, model, my_moments);

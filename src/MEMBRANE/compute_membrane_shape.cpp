@@ -233,7 +233,6 @@ void ComputeMembraneShape::measure()
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   totals.measure(groups, model, integrals, true);
-  totals.place_origins(groups, model);
   for (const FaceGroup &group : groups) curvature_integrals(group, x, model, curvature);
 
   const size_t n = mesh->molecules().size();

@@ -737,8 +737,7 @@ const int *FixSRDMesh::sides()
   if (!have_obstacle) return nullptr;
   const SurfaceRegions &regions = obstacle->regions;
   side.resize(atom->nlocal);
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (solvent.has(i)) side[i] = regions.parity(regions.region[i], atom->image[i]);
+  regions.find_parities(solvent, side.data());
   for (int k = 0; k < 3; ++k) cells->flips[k] = regions.flips(k);
   return side.data();
 }

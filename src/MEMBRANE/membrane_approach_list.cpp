@@ -88,7 +88,7 @@ void ApproachList::find_far(const SurfaceGrid &grid)
 void ApproachList::offer(const SurfaceGrid &grid, int first, int last, const double *x,
                          const double *velocity, const std::function<bool(int)> &has)
 {
-  constexpr int BLOCK = 512;
+  constexpr int BLOCK = SurfaceGrid::BLOCK;
   int cubes[BLOCK], near[BLOCK];
   float flight[BLOCK];
   const double reach = (left_ + step_) * (left_ + step_);
@@ -104,18 +104,15 @@ void ApproachList::offer(const SurfaceGrid &grid, int first, int last, const dou
       near[num_near] = i;
       num_near += !(flight[i] < far_[cubes[i] + 1]);
     }
+    num_near = grid.keep_passing(xs, vs, cubes, left_, margin_, near, num_near);
     for (int j = 0; j < num_near; ++j) {
-      const int i = near[j], cube = cubes[i];
-      if (!has(start + i)) continue;
-      Candidate c = {{}, {}, start + i, cube};
-      std::copy_n(xs + 3 * i, 3, c.x);
-      std::copy_n(vs + 3 * i, 3, c.velocity);
-      const Vector3d way = left_ * Vector3d::Map(c.velocity), end = Vector3d::Map(c.x) + way;
-      if (cube < 0 || !grid.knows_all(margin_, way.squaredNorm()) ||
-          grid.comes_to_layer(cube, c.x, end.data(), margin_)) {
-        __builtin_prefetch(&entry_of_[c.point]);
-        candidates_.push_back(c);
-      }
+      const int i = near[j];
+      if (has && !has(start + i)) continue;
+      __builtin_prefetch(&entry_of_[start + i]);
+      candidates_.push_back({{xs[3 * i], xs[3 * i + 1], xs[3 * i + 2]},
+                             {vs[3 * i], vs[3 * i + 1], vs[3 * i + 2]},
+                             start + i,
+                             cubes[i]});
     }
   }
 }
@@ -144,12 +141,16 @@ void ApproachList::end(SurfaceGrid &grid)
     if (batch_.triangle.empty()) continue;
     const Vector3d end = x + way;
     SurfaceGrid::measure_along(batch_, x.data(), end.data());
-    const int n = static_cast<int>(batch_.triangle.size());
-    const double nearest = *std::min_element(batch_.off.begin(), batch_.off.begin() + n);
-    if (nearest > margin_) continue;
-    const int first = static_cast<int>(triangles_.size());
-    for (int i = 0; i < n; ++i)
-      if (batch_.off[i] <= wide) triangles_.push_back(batch_.triangle[i]);
+    const int first = static_cast<int>(triangles_.size()), n = static_cast<int>(batch_.triangle.size());
+    triangles_.resize(first + n);
+    int *listed = triangles_.data() + first, num_listed = 0, num_near = 0;
+    for (int i = 0; i < n; ++i) {
+      listed[num_listed] = batch_.triangle[i];
+      num_listed += batch_.off[i] <= wide;
+      num_near += batch_.off[i] <= margin_;
+    }
+    triangles_.resize(first + (num_near > 0 ? num_listed : 0));
+    if (num_near == 0) continue;
     enter(c.point, x, v, first);
   }
 }
@@ -175,11 +176,10 @@ void ApproachList::list(SurfaceGrid &grid, int point, const Vector3d &x, const V
 {
   const double tube = margin_ + moved_;
   const Vector3d end = x + left_ * velocity;
-  const bool inside = grid.find_along(x, end, tube + step_ * velocity.norm() + room_, found_);
-  if (inside && std::none_of(found_.begin(), found_.end(), [&](int t) {
-        return grid.off_line(t, x.data(), end.data()) <= tube;
-      }))
-    return;
+  double nearest;
+  const bool inside =
+      grid.find_along(x, end, tube + step_ * velocity.norm() + room_, found_, nearest);
+  if (inside && nearest > tube) return;
   const int first = static_cast<int>(triangles_.size());
   if (inside) triangles_.insert(triangles_.end(), found_.begin(), found_.end());
   enter(point, x, velocity, first);

@@ -43,7 +43,7 @@ class ApproachList {
       a point comes at most by `room` further than its velocity takes it. */
   void begin(SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
              double horizon, double step, double room);
-  /** Call for all points, here those from first to last - 1 that has(i) takes. x, velocity: of all points,
+  /** Call for all points, here those from first to last - 1, if given only those that has(i) takes. x, velocity: of all points,
       three numbers each. Most are far away, and most others fly past, which takes one look at the grid
       each. */
   void offer(const SurfaceGrid &grid, int first, int last, const double *x, const double *velocity,
@@ -80,13 +80,13 @@ class ApproachList {
     int num_meeting = 0;
     for (int i = 0; i < num_watched; ++i) {
       const int e = meeting_[i];
-      if (!look(grid, e, duration, extra)) continue;
-      fetch(entries_[e].point);
-      meeting_[num_meeting++] = e;
+      if (look(grid, e, duration, extra)) meeting_[num_meeting++] = e;
     }
-    meeting_.resize(num_meeting);
-    for (int e : meeting_) {
-      const Entry &entry = entries_[e];
+    constexpr int AHEAD = 8;
+    for (int i = 0; i < num_meeting + AHEAD; ++i) {
+      if (i < num_meeting) fetch(entries_[meeting_[i]].point);
+      if (i < AHEAD) continue;
+      const Entry &entry = entries_[meeting_[i - AHEAD]];
       const bool known =
           entry.first < entry.last && duration <= step_ && slack + extra <= room_;
       if (known) find_around(grid, entry, way_of(entry, duration), slack + 2.0 * extra);

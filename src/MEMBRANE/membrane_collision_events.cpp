@@ -56,7 +56,8 @@ int CollisionEvents::add_point(const MovingPoint &path, double inverse_mass, int
                                double reach)
 {
   const int pair = static_cast<int>(pairs_.size());
-  points_.push_back({path, path, Vector3d::Zero(), inverse_mass, reach, tag, pair, pair, 0, 0, -1});
+  points_.push_back({path, path, Vector3d::Zero(), inverse_mass, reach, tag, pair, pair, 0, 0, -1,
+                     false});
   return static_cast<int>(points_.size()) - 1;
 }
 
@@ -106,6 +107,7 @@ void CollisionEvents::reset()
     point.now = point.start;
     point.bounces = point.version = 0;
     point.touching = -1;
+    point.turned = false;
   }
 }
 
@@ -118,11 +120,7 @@ CollisionEvents::Outcome CollisionEvents::run(const std::vector<SurfaceImpulse> 
   for (size_t i = 0; i < from_outside.size(); ++i)
     queue_.push({from_outside[i].time, from_outside[i].tag, -1, static_cast<int>(i), 0});
   for (int i = 0; i < num_points(); ++i) {
-    for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p)
-      if (pairs_[p].ahead)
-        foresee(p, 0.0);
-      else
-        pairs_[p].hits = false;
+    for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p) foresee(p, 0.0);
     schedule(i, 0.0);
   }
 
@@ -147,6 +145,8 @@ void CollisionEvents::foresee(int p, double now)
 {
   Pair &pair = pairs_[p];
   const Point &point = points_[pair.point];
+  pair.hits = false;
+  if (!pair.ahead && !point.turned) return;
   const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
   std::array<MovingPoint, 3> corners;
   for (int k = 0; k < 3; ++k) {
@@ -186,6 +186,12 @@ void CollisionEvents::schedule(int i, double now)
   if (any) queue_.push(first);
 }
 
+void CollisionEvents::turn_point(Point &point, double now, const Vector3d &change)
+{
+  point.now.turn(now, change);
+  point.turned = true;
+}
+
 bool CollisionEvents::in_reach(const Point &point) const
 {
   return (point.now.at(duration_) - point.start.origin).norm() <= point.reach;
@@ -196,7 +202,7 @@ void CollisionEvents::hit_wall(const Event &event, Outcome &outcome)
   Point &point = points_[event.point];
   Vector3d v = point.now.velocity;
   walls_.bounce(v.data(), 1.0 / point.inverse_mass, -1 - event.pair);
-  point.now.turn(event.time, v - point.now.velocity);
+  turn_point(point, event.time, v - point.now.velocity);
   if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
   for (int p = point.first_pair; p < point.last_pair; ++p) foresee(p, event.time);
   schedule(event.point, event.time);
@@ -229,7 +235,7 @@ void CollisionEvents::collide(const Event &event, Outcome &outcome)
     SurfaceImpulse done = {now, point.tag, triangle.vertex, b, Vector3d::Zero(), -1};
     if (!settings_.control || !hit_control(pair, point, done))
       done.impulse = impulse_of(pair, point, now);
-    point.now.turn(now, -point.inverse_mass * done.impulse);
+    turn_point(point, now, -point.inverse_mass * done.impulse);
     if (!in_reach(point)) outcome = Outcome::POINT_STRAYED;
     impulse_ += done.impulse;
     normal_impulse_[pair.side > 0 ? 0 : 1] -= pair.side * done.impulse.dot(pair.hit.normal);

@@ -119,7 +119,8 @@ class CollisionEvents {
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
   /// By forces on the last point.
   void accelerate_point(const Eigen::Vector3d &a) { points_.back().acceleration = a; }
-  /// A triangle that the last point may meet, and the side it is on; ahead: also before it is turned.
+  /// A triangle that the last point may meet, and the side it is on; not ahead: only if the point is turned,
+  /// wherever vertices are deflected to within their slack.
   void add_pair(int triangle, int side, bool ahead = true);
 
   // === The step
@@ -164,6 +165,7 @@ class CollisionEvents {
     int64_t tag;
     int first_pair, last_pair;
     int bounces, version, touching;    // touching: the pair it hit last
+    bool turned;
   };
   struct Pair {
     int point, triangle, side;
@@ -220,6 +222,7 @@ class CollisionEvents {
   void index_pairs();
   void reset();
   void foresee(int pair, double now);
+  void turn_point(Point &point, double now, const Eigen::Vector3d &change);
   void schedule(int point, double now);
   void collide(const Event &event, Outcome &outcome);
   void hit_wall(const Event &event, Outcome &outcome);

@@ -239,18 +239,49 @@ void SurfaceGrid::find_led()
 
 void SurfaceGrid::measure_layers()
 {
-  layers_.resize(planes_.size());
+  layers_.assign(LED + planes_.size(), {{0.0, 0.0, 0.0}, INFINITY, -INFINITY});
+  layers_[OPEN] = {{0.0, 0.0, 0.0}, -INFINITY, INFINITY};
   for (size_t t = 0; t < planes_.size(); ++t) {
-    Layer &layer = layers_[t];
+    Layer &layer = layers_[LED + t];
     std::copy_n(planes_[t].normal, 3, layer.normal);
-    layer.lo = INFINITY;
-    layer.hi = -INFINITY;
     for (int j = led_start_[t]; j < led_start_[t + 1]; ++j) {
       const double h = Vector3d::Map(layer.normal).dot(corner_at_[led_[j]]);
       layer.lo = std::min(layer.lo, h);
       layer.hi = std::max(layer.hi, h);
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   By one look at a layer, in vectors. Who may come to triangles that the cube does not know stays, and so
+   does what is not a number
+------------------------------------------------------------------------- */
+
+int SurfaceGrid::keep_passing(const double *x, const double *velocity, const int *cubes, double time,
+                              double margin, int *which, int n) const
+{
+  int stays[BLOCK];
+  const double spare = std::max(0.0, listed_ - margin), most = spare * spare / (time * time);
+  const Layer *layers = layers_.data();
+  const int *lead = lead_.data();
+#pragma GCC ivdep
+  for (int j = 0; j < n; ++j) {
+    const int i = which[j], cube = cubes[i];
+    const double *at = x + 3 * i, *v = velocity + 3 * i;
+    const Layer &layer = layers[cube < 0 ? OPEN : EMPTY + 1 + lead[cube < 0 ? 0 : cube]];
+    const double a = layer.normal[0] * at[0] + layer.normal[1] * at[1] + layer.normal[2] * at[2];
+    const double b = a + time * (layer.normal[0] * v[0] + layer.normal[1] * v[1] + layer.normal[2] * v[2]);
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    const bool passes_by = (low > layer.hi + margin) | (high < layer.lo - margin);
+    const bool knows_all = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most;
+    stays[j] = !(passes_by & knows_all);
+  }
+  int kept = 0;
+  for (int j = 0; j < n; ++j) {
+    which[kept] = which[j];
+    kept += stays[j];
+  }
+  return kept;
 }
 
 /* ----------------------------------------------------------------------
@@ -440,9 +471,10 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
 }
 
 bool SurfaceGrid::find_along(const Vector3d &x, const Vector3d &end, double tube,
-                             std::vector<int> &found)
+                             std::vector<int> &found, double &nearest)
 {
   found.clear();
+  nearest = INFINITY;
   Range range;
   if (knows_all(tube, (end - x).squaredNorm())) {
     if (!cubes_of(x, x, range)) return false;
@@ -450,7 +482,11 @@ bool SurfaceGrid::find_along(const Vector3d &x, const Vector3d &end, double tube
     const Vector3d beyond = Vector3d::Constant(std::max(0.0, tube - listed_));
     if (!cubes_of(x.cwiseMin(end) - beyond, x.cwiseMax(end) + beyond, range)) return false;
   }
-  collect(range, found, [&](int t) { return off_line(t, x.data(), end.data()) <= tube; });
+  collect(range, found, [&](int t) {
+    const double off = off_line(t, x.data(), end.data());
+    nearest = std::min(nearest, off);
+    return off <= tube;
+  });
   return true;
 }
 

@@ -82,9 +82,9 @@ class SurfaceGrid {
     return off(triangle, x) <= reach + planes_[triangle].moves;
   }
   /// Triangles that are now within `tube` of the straight line from x to `end`, and maybe others, each
-  /// once; false if that goes beyond the grid.
+  /// once, and how far away the nearest is, or less; false if that goes beyond the grid.
   bool find_along(const Eigen::Vector3d &x, const Eigen::Vector3d &end, double tube,
-                  std::vector<int> &found);
+                  std::vector<int> &found, double &nearest);
   /// The triangles that a cube knows, in arrays by coordinate: for many points in it, one after the other.
   struct Batch {
     std::vector<int> triangle;
@@ -100,7 +100,6 @@ class SurfaceGrid {
   void load(int cube, Batch &batch) const;
   /// off: how far away from that line each is, or less.
   static void measure_along(Batch &batch, const double *x, const double *end);
-  double off_line(int triangle, const double *x, const double *end) const;
   /// Whether a point that moves from x by `path` in this step, both known to within `extra`, can meet a
   /// triangle.
   bool can_meet(int triangle, const double *x, const double *path, double extra = 0.0) const
@@ -135,17 +134,15 @@ class SurfaceGrid {
   /// The cubes of n places, three numbers each; -1 for those beyond the grid.
   void find_cubes(const double *x, int n, int *cubes) const;
   /** Find layers between two planes that hold all triangles known to a cube, where they are now: for
-      comes_to_layer(), which tells from one look what a cube's triangles have in common. */
+      keep_passing(), which tells from one look what a cube's triangles have in common. */
   void measure_layers();
-  /// Whether a straight line comes within `margin` of the layer of a cube.
-  bool comes_to_layer(int cube, const double *x, const double *end, double margin) const
-  {
-    if (lead_[cube] < 0) return false;
-    const Layer &layer = layers_[lead_[cube]];
-    const double a = layer.normal[0] * x[0] + layer.normal[1] * x[1] + layer.normal[2] * x[2],
-                 b = layer.normal[0] * end[0] + layer.normal[1] * end[1] + layer.normal[2] * end[2];
-    return std::min(a, b) <= layer.hi + margin && std::max(a, b) >= layer.lo - margin;
-  }
+  static constexpr int BLOCK = 512;
+  /// Of the points numbered which[0] to which[n - 1], n <= BLOCK, leaves in front those that may come within `margin`
+  /// of a triangle in that time, on straight lines, and returns how many they are. Three numbers a point;
+  /// cubes: as from find_cubes().
+  int keep_passing(const double *x, const double *velocity, const int *cubes, double time, double margin,
+                   int *which, int n) const;
+
   int num_cubes() const { return size_[0] * size_[1] * size_[2]; }
   int away(int cube) const { return away_[cube]; }
 
@@ -174,7 +171,7 @@ class SurfaceGrid {
 
   // Of the triangles that a cube knows, the nearest to its centre leads it: of its normal are the planes
   // between which all corners are of all the cubes that it leads.
-  std::vector<int> lead_;
+  std::vector<int> lead_;    // by cube, or -1
   struct Corner {
     int vertex;
     std::array<int, 3> lattice;
@@ -185,6 +182,7 @@ class SurfaceGrid {
   struct Layer {
     double normal[3], lo, hi;
   };
+  enum { OPEN, EMPTY, LED };     // layers beyond the grid and of a cube without triangles, then by leading triangle
   std::vector<Layer> layers_;
   std::vector<Eigen::Vector3d> corner_at_, corner_velocity_;    // in this step
   std::vector<double> corner_speed_;
@@ -215,6 +213,7 @@ class SurfaceGrid {
   void find_distances();
   void find_corners(const SurfaceFaces &surface, int num_vertices);
   void find_led();
+  double off_line(int triangle, const double *x, const double *end) const;
 };
 
 }    // namespace Membrane_NS

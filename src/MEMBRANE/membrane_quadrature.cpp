@@ -179,6 +179,20 @@ void rescale(PatchRule &rule, double factor)
 
 }    // namespace
 
+// where parts of a face are so narrow that it errs less than the rule itself does elsewhere
+
+static Quadrature cheaper_rule(Quadrature quadrature)
+{
+  switch (quadrature) {
+    case Quadrature::SIX:
+      return Quadrature::THREE;
+    case Quadrature::TWELVE:
+      return Quadrature::SIX;
+    default:
+      return quadrature;
+  }
+}
+
 PatchRules::PatchRules(Quadrature quadrature) :
     quadrature_(quadrature), triangle_(triangle_rule(quadrature))
 {
@@ -243,9 +257,8 @@ const PatchRule &PatchRules::graded(int n)
   const RowVectorXd mask = basis.corner_mask(0);
   const double shrink = subdominant_eigenvalue(n);
 
-  PatchRule level, tip, rule;
-  for (int child = 1; child < 4; ++child)
-    append_child(level, get({6, 6, 6}), basis.child_matrix(child), mask);
+  PatchRule level = regular_children(basis, quadrature_), tip, rule;
+  const Quadrature cheaper = cheaper_rule(quadrature_);
   for (int q = 0; q < triangle_.size(); ++q)
     append(tip, triangle_.weight[q], basis.evaluate(triangle_.u[q], triangle_.v[q]));
 
@@ -253,6 +266,7 @@ const PatchRule &PatchRules::graded(int n)
     for (int q = 0; q < level.npoints; ++q)
       append(rule, level.weight[q],
              Eigen::Map<const Weights>(level.row(q, 0), LimitBasis::ROWS, level.size));
+    if (depth == 1) level = regular_children(basis, cheaper);
     for (PatchRule *part : {&level, &tip}) {
       PatchRule next;
       append_child(next, *part, to_next, mask);
@@ -264,6 +278,19 @@ const PatchRule &PatchRules::graded(int n)
     append(rule, tip.weight[q],
            Eigen::Map<const Weights>(tip.row(q, 0), LimitBasis::ROWS, tip.size));
   return tips_[n] = std::move(rule);
+}
+
+// of the patch (n, 6, 6)
+
+PatchRule PatchRules::regular_children(const LimitBasis &basis, Quadrature quadrature) const
+{
+  const TriangleRule triangle = triangle_rule(quadrature);
+  PatchRule regular, rule;
+  for (int q = 0; q < triangle.size(); ++q)
+    append(regular, triangle.weight[q], box_spline(triangle.u[q], triangle.v[q]));
+  for (int child = 1; child < 4; ++child)
+    append_child(rule, regular, basis.child_matrix(child), basis.corner_mask(0));
+  return rule;
 }
 
 double PatchRules::memory_usage() const

@@ -74,10 +74,24 @@ int CollisionRule::num_moments() const
   return settings_.thermostat ? ENERGY + 1 : MOMENTUM + 3;
 }
 
+// cells are all over the memory: what the particles ahead need is asked for in time
+
+static constexpr int AHEAD = 16;
+
+static void fetch_ahead(const SRDParticles &p, int i, const double *values, int width)
+{
+  const int cell = i + AHEAD < p.count ? p.cell[i + AHEAD] : -1;
+  if (cell < 0) return;
+  const double *first = values + (size_t) width * cell;
+  __builtin_prefetch(first, 1);
+  __builtin_prefetch(first + width - 1, 1);
+}
+
 template <bool WITH_ENERGY> static void add_momenta(const SRDParticles &p, double *moments)
 {
   constexpr int WIDTH = WITH_ENERGY ? ENERGY + 1 : MOMENTUM + 3;
   for (int i = 0; i < p.count; ++i) {
+    fetch_ahead(p, i, moments, WIDTH);
     if (p.cell[i] < 0) continue;
     double *a = moments + (size_t) WIDTH * p.cell[i];
     const double *v = p.velocity + 3 * (size_t) i, m = p.mass[i];
@@ -251,6 +265,7 @@ void CollisionRule::apply(const SRDParticles &p, const double *actions) const
 {
   if (settings_.method == Method::SRD) {
     for (int i = 0; i < p.count; ++i) {
+      fetch_ahead(p, i, actions, 12);
       if (p.cell[i] < 0) continue;
       const double *u = actions + 12 * (size_t) p.cell[i], *r = u + 3;
       double *v = p.velocity + 3 * (size_t) i;

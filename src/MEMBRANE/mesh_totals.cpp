@@ -21,6 +21,7 @@
 #include "domain.h"
 
 #include <algorithm>
+#include <array>
 
 using namespace LAMMPS_NS;
 using Membrane_NS::FaceGroup;
@@ -111,6 +112,7 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
   MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
 
   wholes.assign(mesh->molecules().size(), Total());
+  std::vector<std::array<double, 3>> shift(n);
   for (int c = 0; c < n; ++c) {
     const double *sum = &all[c * WIDTH];
     Total &total = parts[c];
@@ -123,8 +125,15 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
       const double centre = sum[5 + k] / mesh->topology().num_vertices(c);
       total.vector_area[k] = sum[2 + k];
       total.volume -= (centre - total.centre[k]) * sum[2 + k] / 3.0;
+      shift[c][k] = centre - total.centre[k];
       total.centre[k] = centre;
     }
     if (mesh->is_closed(c)) membrane.volume += total.volume;
   }
+  if (!with_volume) return;
+  for (const FaceGroup &group : groups)
+    for (int s = 0; s < group.nslots(); ++s) {
+      const auto &d = shift[n == 1 ? 0 : component_of(group, s)];
+      for (int k = 0; k < 3; ++k) model.origin[3 * (size_t) (group.first_slot + s) + k] += d[k];
+    }
 }

@@ -41,20 +41,21 @@ class MeshTotals : protected Pointers {
   void reset(const class DistributedMesh &);
 
   /** Collective. Areas, and volumes if wanted, of the faces of these groups, of their components
-      and of their membranes. A membrane's volume is that of its closed components. */
+      and of their membranes. A membrane's volume is that of its closed components. With volumes, the
+      model's origins are at the centres afterwards, moved to the periodic image each face is in. */
   void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
                Membrane_NS::FaceIntegrals &, bool with_volume);
   const std::vector<Total> &components() const { return parts; }
   const std::vector<Total> &membranes() const { return wholes; }
 
-  /// Set the model's origins to the centres, moved to the periodic image each face is in.
-  void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;
   /// The connected component of the face in a slot of a group.
   int component_of(const Membrane_NS::FaceGroup &, int slot) const;
 
  private:
   const class DistributedMesh *mesh = nullptr;
   std::vector<Total> parts, wholes;
+
+  void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -506,7 +506,6 @@ void PairHelfrich::compute(int eflag, int vflag)
   for (const FaceGroup &group : groups) points += 1.0 * group.nfaces * group.rule->npoints;
   points_evaluated = first_pass || wants_volume ? 2.0 * points : points;
   if (first_pass) apply_global_terms();
-  if (volumes) totals.place_origins(groups, model);
 
   const int nslots = count_slots(groups);
   for (auto *sum : {&energies.bending, &energies.gauss, &energies.area})

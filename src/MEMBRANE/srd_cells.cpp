@@ -160,6 +160,7 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
     bins.label.resize(count);
   }
   if (!offsets && count > 0) grid.find_cells(x[first], count, bins.cell.data());
+  const bool plain = !flips[0] && !flips[1] && !flips[2];
   for (int i = 0; i < count; ++i) {
     const int j = first + i;
     int &c = bins.cell[i];
@@ -171,8 +172,10 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
       c = grid.cell(x[j], &bins.offset[3 * (size_t) i]);
       bins.label[i] = atom->tag[j];
     }
-    if (c < 0) lost = j;
-    if (side && c >= 0 && side_of(x[j], side[j])) c += cells;
+    if (c < 0)
+      lost = j;
+    else if (side)
+      c += (plain ? side[j] != 0 : side_of(x[j], side[j])) ? cells : 0;
   }
   if (lost >= 0)
     error->one(FLERR,

@@ -270,9 +270,9 @@ void SRDGrid::find_cells(const double *x, int count, int *cells) const
     int c0 = static_cast<int>(std::floor(m0 * d0 + m5 * d1 + m4 * d2 - shift0)) - start0;
     int c1 = static_cast<int>(std::floor(m1 * d1 + m3 * d2 - shift1)) - start1;
     int c2 = static_cast<int>(std::floor(m2 * d2 - shift2)) - start2;
-    c0 += c0 < 0 ? turn0 : c0 >= n0 ? -turn0 : 0;
-    c1 += c1 < 0 ? turn1 : c1 >= n1 ? -turn1 : 0;
-    c2 += c2 < 0 ? turn2 : c2 >= n2 ? -turn2 : 0;
+    c0 += (c0 < 0 ? turn0 : 0) - (c0 >= n0 ? turn0 : 0);
+    c1 += (c1 < 0 ? turn1 : 0) - (c1 >= n1 ? turn1 : 0);
+    c2 += (c2 < 0 ? turn2 : 0) - (c2 >= n2 ? turn2 : 0);
     const bool here = (c0 >= 0) & (c0 < length0) & (c1 >= 0) & (c1 < length1) & (c2 >= 0) & (c2 < length2);
     cells[i] = here ? (c2 * length1 + c1) * length0 + c0 : ELSEWHERE;
   }

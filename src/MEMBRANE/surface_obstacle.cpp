@@ -50,8 +50,8 @@ static constexpr double SKIN = 0.35, REACH = 0.45;
 // vertices may be deflected so far in one step, points so far beyond where their speed takes them;
 // looked for in the first attempt, and at most
 static constexpr double FIRST_SLACK = 0.004, MOST_SLACK = 0.15;
-// and what one step needs is likely too much for others
-static constexpr double LESS_SLACK = 0.99;
+// more for a step that needs it, which is likely too much for others
+static constexpr double MORE_SLACK = 1.5, LESS_SLACK = 0.99;
 static constexpr double SPACING = 1.2;
 // of the list of solvent that comes near, to begin with
 static constexpr double MARGIN = 0.2;
@@ -243,8 +243,9 @@ void SurfaceObstacle::list_approaching(const Flight &flight)
   const double far = LONGEST * motion.surface_edge() / std::max(speed, 1.0e-300);
   approaching.begin(grid, *vertices, atom->nlocal, std::max(flight.dt, std::min(flight.horizon, far)),
                     std::max(flight.dt, update->dt), 2.0 * point_slack);
-  approaching.offer(grid, solvent.first(), solvent.last(), atom->x[0], atom->v[0],
-                    [&](int i) { return solvent.has(i); });
+  std::function<bool(int)> has;
+  if (!solvent.dense()) has = [&](int i) { return solvent.has(i); };
+  approaching.offer(grid, solvent.first(), solvent.last(), atom->x[0], atom->v[0], has);
   approaching.end(grid);
 }
 
@@ -293,9 +294,9 @@ void SurfaceObstacle::run(const Flight &flight)
     const auto outcome = events.run(from_outside);
     if (outcome == CollisionEvents::Outcome::DONE) return;
     if (outcome == CollisionEvents::Outcome::POINT_STRAYED)
-      point_slack *= 2.0;
+      point_slack *= MORE_SLACK;
     else if (vertex_slack < most_slack())
-      vertex_slack = std::min(2.0 * vertex_slack, most_slack());
+      vertex_slack = std::min(MORE_SLACK * vertex_slack, most_slack());
     else
       error->one(FLERR,
                  "{}: solvent deflects the surface by more than {} of an edge in one step: use a "

@@ -179,6 +179,22 @@ std::vector<SurfaceRegions::Crossing> SurfaceRegions::find_crossings(const SRDSo
   return crossings;
 }
 
+/* ---------------------------------------------------------------------- */
+
+void SurfaceRegions::find_parities(const SRDSolvent &solvent, int *parity) const
+{
+  const int *of_region = odd.data();
+  const bool any_flips = flip[0] || flip[1] || flip[2];
+  for (int i = solvent.first(); i < solvent.last(); ++i) {
+    if (!solvent.has(i)) continue;
+    int sum = of_region[region[i]];
+    if (any_flips)
+      for (int k = 0; k < 3; ++k)
+        if (flip[k]) sum += flag(atom->image[i], k);
+    parity[i] = sum & 1;
+  }
+}
+
 double SurfaceRegions::memory_usage() const
 {
   return sizeof(int) * (double) atom->nmax;

@@ -50,15 +50,10 @@ class SurfaceRegions : protected Pointers {
   }
   /// Whether atoms of a region are inside of a closed surface.
   bool is_inside(int region) const { return inside[region] != 0; }
-  /** Even and odd numbers tell the two sides of a surface apart wherever the two are close. In the
-      frame of the box: an atom that is wrapped changes its parity if flips() says so. */
-  int parity(int region, imageint image) const
-  {
-    int sum = odd[region];
-    for (int k = 0; k < 3; ++k)
-      if (flip[k]) sum += flag(image, k);
-    return sum & 1;
-  }
+  /** Parities of the regions of all solvent, by local atom: even and odd tell the two sides of a surface
+      apart wherever the two are close. In the frame of the box: an atom that is wrapped changes its
+      parity if flips() says so. */
+  void find_parities(const class SRDSolvent &, int *parity) const;
   bool flips(int direction) const { return flip[direction] != 0; }
 
   /// By local atom; grow_arrays() and the like of a fix.
@@ -85,7 +80,8 @@ class SurfaceRegions : protected Pointers {
   std::vector<int> surface_of;                    // of a component: its place among those of the group
   std::vector<Membrane_NS::SurfaceSide> sides;    // by component
   std::vector<int> levels;                        // [region][surface]
-  std::vector<char> inside, odd;                  // by region; odd: the sum of its levels is
+  std::vector<char> inside;                       // by region
+  std::vector<int> odd;                           // by region: whether the sum of its levels is
   int flip[3];                                    // by direction: the sum of the surfaces' degrees is odd
 
   static int flag(imageint image, int k)
