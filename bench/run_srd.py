@@ -19,6 +19,7 @@ CASES = {
     "fix srd/mesh, bulk": {"fix": "srd/mesh"},
     "fix srd/mesh, bulk, thermostat": {"fix": "srd/mesh", "args": "angle 90 tstat yes"},
     "fix srd/mesh, vesicle of 642 points": {"fix": "srd/mesh", "vesicle": "yes"},
+    "fix srd/mesh, vesicle, quadrature 3": {"fix": "srd/mesh", "vesicle": "yes", "quadrature": "3"},
     "fix srd/mesh, vesicle, level 1": {"fix": "srd/mesh", "vesicle": "yes", "args": "angle 90 level 1"},
     "fix srd/mesh, vesicle, slip": {"fix": "srd/mesh", "vesicle": "yes", "args": "angle 90 collision slip"},
 }

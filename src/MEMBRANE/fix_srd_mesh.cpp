@@ -593,13 +593,15 @@ void FixSRDMesh::stream_past_membranes(double dt, double until_collision)
 void FixSRDMesh::wrap()
 {
   if (!aside.active() || domain->deform_vremap) return;    // LAMMPS changes velocities, too
-  constexpr int BLOCK = 512;
+  constexpr int BLOCK = SRDGrid::BLOCK;
   int outside[BLOCK];
   for (int first = solvent.first(); first < solvent.last(); first += BLOCK) {
-    const int n = MIN(BLOCK, solvent.last() - first);
-    cells->grid.find_outside(atom->x[first], n, outside);
-    for (int i = first; i < first + n; ++i)
-      if (outside[i - first] && solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
+    const int count = MIN(BLOCK, solvent.last() - first);
+    const int n = cells->grid.find_outside(atom->x[first], count, outside);
+    for (int j = 0; j < n; ++j) {
+      const int i = first + outside[j];
+      if (solvent.has(i)) cells->grid.wrap(atom->x[i], atom->image[i]);
+    }
   }
 }
 

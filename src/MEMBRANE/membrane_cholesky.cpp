@@ -32,56 +32,56 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
     throw MeshError("the mass matrix cannot be factorized: its masses differ too much");
   const auto &permutation = factor.permutationP().indices();
   place_.assign(permutation.data(), permutation.data() + permutation.size());
-  const Eigen::SparseMatrix<double> g = factor.matrixL();
-  start_.assign(1, 0);
-  for (int j = 0; j < g.cols(); ++j) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(g, j); entry; ++entry) {
-      if (entry.row() == j) {
-        inverse_diagonal_.push_back(1.0 / entry.value());
-        continue;
+  const Eigen::SparseMatrix<double> columns = factor.matrixL();
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = columns;
+  const auto copy = [](const auto &g, Lines &lines, std::vector<double> *inverse_diagonal) {
+    lines.start.assign(1, 0);
+    for (int j = 0; j < g.outerSize(); ++j) {
+      for (typename std::decay_t<decltype(g)>::InnerIterator entry(g, j); entry; ++entry) {
+        if (entry.row() != entry.col()) {
+          lines.place.push_back(static_cast<int>(entry.index()));
+          lines.value.push_back(entry.value());
+        } else if (inverse_diagonal)
+          inverse_diagonal->push_back(1.0 / entry.value());
       }
-      row_.push_back(static_cast<int>(entry.row()));
-      value_.push_back(entry.value());
+      lines.start.push_back(static_cast<int>(lines.place.size()));
     }
-    start_.push_back(static_cast<int>(row_.size()));
-  }
+  };
+  copy(columns, columns_, &inverse_diagonal_);
+  copy(rows, rows_, nullptr);
 }
 
 /* ----------------------------------------------------------------------
-   G y = P x by columns, G^T z = y by rows of G^T, which are columns of G, too; the latter in four sums, so
-   that one does not wait for the other
+   G y = P x by rows of G, from the first to the last, G^T z = y by its columns, from the last to the first: each time
+   what is known of the others is taken off, in four sums, so that one does not wait for the other
 ------------------------------------------------------------------------- */
 
 template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *, FIELDS> &x)
 {
   const int n = size();
-  const int *start = start_.data(), *row = row_.data();
-  const double *value = value_.data();
   work_.resize((size_t) FIELDS * n);
   Vector4 *z = work_.data();    // fields of a vertex side by side
   for (int i = 0; i < n; ++i)
     for (int f = 0; f < FIELDS; ++f) z[FIELDS * place_[i] + f] = (*x[f])[i];
-  for (int j = 0; j < n; ++j) {
-    Quad here[FIELDS];
-    for (int f = 0; f < FIELDS; ++f)
-      quad(z[FIELDS * j + f]) = here[f] = inverse_diagonal_[j] * quad(z[FIELDS * j + f]);
-    for (int k = start[j]; k < start[j + 1]; ++k)
-      for (int f = 0; f < FIELDS; ++f) quad(z[FIELDS * row[k] + f]) -= value[k] * here[f];
-  }
   constexpr int SUMS = 4;
-  for (int j = n - 1; j >= 0; --j) {
+  const auto solve_for = [&](int j, const Lines &lines) {
+    const int *place = lines.place.data(), last = lines.start[j + 1];
+    const double *value = lines.value.data();
     Quad sum[SUMS][FIELDS] = {};
     for (int f = 0; f < FIELDS; ++f) sum[0][f] = quad(z[FIELDS * j + f]);
-    int k = start[j];
-    for (; k + SUMS <= start[j + 1]; k += SUMS)
+    int k = lines.start[j];
+    for (; k + SUMS <= last; k += SUMS)
       for (int i = 0; i < SUMS; ++i)
         for (int f = 0; f < FIELDS; ++f)
-          sum[i][f] -= value[k + i] * quad(z[FIELDS * row[k + i] + f]);
-    for (; k < start[j + 1]; ++k)
-      for (int f = 0; f < FIELDS; ++f) sum[0][f] -= value[k] * quad(z[FIELDS * row[k] + f]);
+          sum[i][f] -= value[k + i] * quad(z[FIELDS * place[k + i] + f]);
+    for (; k < last; ++k)
+      for (int f = 0; f < FIELDS; ++f) sum[0][f] -= value[k] * quad(z[FIELDS * place[k] + f]);
     for (int f = 0; f < FIELDS; ++f)
-      quad(z[FIELDS * j + f]) = inverse_diagonal_[j] * ((sum[0][f] + sum[1][f]) + (sum[2][f] + sum[3][f]));
-  }
+      quad(z[FIELDS * j + f]) =
+          inverse_diagonal_[j] * ((sum[0][f] + sum[1][f]) + (sum[2][f] + sum[3][f]));
+  };
+  for (int j = 0; j < n; ++j) solve_for(j, rows_);
+  for (int j = n - 1; j >= 0; --j) solve_for(j, columns_);
   for (int i = 0; i < n; ++i)
     for (int f = 0; f < FIELDS; ++f) (*x[f])[i] = z[FIELDS * place_[i] + f];
 }
@@ -91,7 +91,10 @@ template void SparseCholesky::solve<2>(const std::array<VertexField *, 2> &);
 
 double SparseCholesky::memory_usage() const
 {
-  return sizeof(int) * (place_.capacity() + start_.capacity() + row_.capacity()) +
-      sizeof(double) * (value_.capacity() + inverse_diagonal_.capacity()) +
+  double bytes = sizeof(int) * place_.capacity() + sizeof(double) * inverse_diagonal_.capacity() +
       sizeof(Vector4) * work_.capacity();
+  for (const Lines *lines : {&rows_, &columns_})
+    bytes += sizeof(int) * (lines->start.capacity() + lines->place.capacity()) +
+        sizeof(double) * lines->value.capacity();
+  return bytes;
 }

@@ -38,8 +38,12 @@ class SparseCholesky {
 
  private:
   std::vector<int> place_;              // of a row of A in G
-  std::vector<int> start_, row_;        // of G below its diagonal, by columns
-  std::vector<double> value_, inverse_diagonal_;
+  struct Lines {                        // of G below its diagonal: where each begins, places in it, values
+    std::vector<int> start, place;
+    std::vector<double> value;
+  };
+  Lines rows_, columns_;
+  std::vector<double> inverse_diagonal_;
   VertexField work_;
 
   template <int FIELDS> void solve(const std::array<VertexField *, FIELDS> &x);

@@ -61,9 +61,9 @@ int CollisionEvents::add_point(const MovingPoint &path, double inverse_mass, int
   return static_cast<int>(points_.size()) - 1;
 }
 
-void CollisionEvents::add_pair(int triangle, int side, bool ahead)
+void CollisionEvents::add_pair(int triangle, int side, Needs needs)
 {
-  pairs_.push_back({static_cast<int>(points_.size()) - 1, triangle, side, ahead, false, {}});
+  pairs_.push_back({static_cast<int>(points_.size()) - 1, triangle, side, needs, false, {}});
   ++points_.back().last_pair;
 }
 
@@ -120,7 +120,11 @@ CollisionEvents::Outcome CollisionEvents::run(const std::vector<SurfaceImpulse> 
   for (size_t i = 0; i < from_outside.size(); ++i)
     queue_.push({from_outside[i].time, from_outside[i].tag, -1, static_cast<int>(i), 0});
   for (int i = 0; i < num_points(); ++i) {
-    for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p) foresee(p, 0.0);
+    for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p)
+      if (pairs_[p].needs == Needs::NOTHING)
+        foresee(p, 0.0);
+      else
+        pairs_[p].hits = false;
     schedule(i, 0.0);
   }
 
@@ -146,7 +150,7 @@ void CollisionEvents::foresee(int p, double now)
   Pair &pair = pairs_[p];
   const Point &point = points_[pair.point];
   pair.hits = false;
-  if (!pair.ahead && !point.turned) return;
+  if (pair.needs == Needs::TURN && !point.turned) return;
   const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
   std::array<MovingPoint, 3> corners;
   for (int k = 0; k < 3; ++k) {

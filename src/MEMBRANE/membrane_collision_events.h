@@ -119,9 +119,11 @@ class CollisionEvents {
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
   /// By forces on the last point.
   void accelerate_point(const Eigen::Vector3d &a) { points_.back().acceleration = a; }
-  /// A triangle that the last point may meet, and the side it is on; not ahead: only if the point is turned,
-  /// wherever vertices are deflected to within their slack.
-  void add_pair(int triangle, int side, bool ahead = true);
+  /// For which of these to meet what: the paths as they are, or else vertices deflected by up to their slack,
+  /// or else the point turned.
+  enum class Needs { NOTHING, DEFLECTION, TURN };
+  /// A triangle that the last point may meet, and the side it is on.
+  void add_pair(int triangle, int side, Needs needs = Needs::NOTHING);
 
   // === The step
 
@@ -169,7 +171,8 @@ class CollisionEvents {
   };
   struct Pair {
     int point, triangle, side;
-    bool ahead, hits;
+    Needs needs;
+    bool hits;
     TriangleHit hit;
   };
   struct Event {

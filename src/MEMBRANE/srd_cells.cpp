@@ -160,7 +160,6 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
     bins.label.resize(count);
   }
   if (!offsets && count > 0) grid.find_cells(x[first], count, bins.cell.data());
-  const bool plain = !flips[0] && !flips[1] && !flips[2];
   for (int i = 0; i < count; ++i) {
     const int j = first + i;
     int &c = bins.cell[i];
@@ -172,16 +171,22 @@ SRDParticles SRDCells::bin_solvent(const SRDSolvent &solvent, const int *side, b
       c = grid.cell(x[j], &bins.offset[3 * (size_t) i]);
       bins.label[i] = atom->tag[j];
     }
-    if (c < 0)
-      lost = j;
-    else if (side)
-      c += (plain ? side[j] != 0 : side_of(x[j], side[j])) ? cells : 0;
+    lost = c < 0 ? j : lost;
   }
   if (lost >= 0)
     error->one(FLERR,
                "Fix srd/mesh: solvent atom {} at ({:.6g}, {:.6g}, {:.6g}) is far outside of its "
                "sub-domain or the box",
                atom->tag[lost], x[lost][0], x[lost][1], x[lost][2]);
+
+  if (side && (flips[0] || flips[1] || flips[2])) {
+    for (int i = 0; i < count; ++i)
+      if (bins.cell[i] >= 0 && side_of(x[first + i], side[first + i])) bins.cell[i] += cells;
+  } else if (side) {
+    const int *of = side + first;
+    int *cell = bins.cell.data();
+    for (int i = 0; i < count; ++i) cell[i] += (of[i] != 0) & (cell[i] >= 0) ? cells : 0;
+  }
 
   SRDParticles p;
   p.count = count;

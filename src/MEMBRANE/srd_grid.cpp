@@ -303,15 +303,21 @@ bool SRDGrid::strayed(const double *x) const
   return false;
 }
 
-void SRDGrid::find_outside(const double *x, int count, int *outside) const
+int SRDGrid::find_outside(const double *x, int count, int *which) const
 {
   const double *lo = domain->boxlo, *hi = domain->boxhi;
   const double lo0 = lo[0], lo1 = lo[1], lo2 = lo[2], hi0 = hi[0], hi1 = hi[1], hi2 = hi[2];
   const int tilted = domain->triclinic;
+  int outside[BLOCK], n = 0;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i)
     outside[i] = tilted | !((x[3 * i] >= lo0) & (x[3 * i] < hi0) & (x[3 * i + 1] >= lo1) &
                             (x[3 * i + 1] < hi1) & (x[3 * i + 2] >= lo2) & (x[3 * i + 2] < hi2));
+  for (int i = 0; i < count; ++i) {
+    which[n] = i;
+    n += outside[i];
+  }
+  return n;
 }
 
 void SRDGrid::wrap(double *x, imageint &image) const
