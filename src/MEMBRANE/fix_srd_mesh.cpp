@@ -22,6 +22,7 @@
 #include "distributed_mesh.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_deform.h"
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
@@ -252,6 +253,7 @@ void FixSRDMesh::init()
     mass->settings.direct = false;    // it solves nothing
     if (group->count(membrane) > 0) {
       check_other_solvents();
+      check_box_movers();
       mass->init();
       obstacle->init();
       keep_meshes_in_shape();
@@ -340,6 +342,26 @@ void FixSRDMesh::check_other_solvents()
                  "Fix srd/mesh: membranes of group {} are also those of fix {}: one fix must have all "
                  "solvent around a membrane",
                  group->names[membrane], other->id);
+  }
+}
+
+// what one of them takes along with the box and the other does not would pass through it
+
+void FixSRDMesh::check_box_movers()
+{
+  for (auto &fix : modify->get_fix_by_style("^deform")) {
+    const auto *deform = dynamic_cast<FixDeform *>(fix);
+    if (!deform || deform->remapflag != Domain::X_REMAP) continue;
+    int mine[2] = {0, 0}, any[2];    // not in its group, in it
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (solvent.has(i) || atom->mask[i] & group->bitmask[membrane])
+        mine[(atom->mask[i] & fix->groupbit) != 0] = 1;
+    MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
+    if (any[0] && any[1])
+      error->all(FLERR,
+                 "Fix srd/mesh: fix {} (deform) with remap x needs all solvent and all membranes of group {} in "
+                 "its group {}",
+                 fix->id, group->names[membrane], group->names[fix->igroup]);
   }
 }
 

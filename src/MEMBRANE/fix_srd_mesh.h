@@ -111,6 +111,7 @@ class FixSRDMesh : public Fix {
   void parse_wall_velocity(char **);
   void check_group();
   void check_other_solvents();
+  void check_box_movers();
   void keep_meshes_in_shape();
   void find_influences();
   void prepare_cells();

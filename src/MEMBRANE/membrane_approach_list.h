@@ -80,7 +80,7 @@ class ApproachList {
     int num_meeting = 0;
     for (int i = 0; i < num_watched; ++i) {
       const int e = meeting_[i];
-      if (look(grid, e, duration, extra)) meeting_[num_meeting++] = e;
+      if (entries_[e].point >= 0 && look(grid, e, duration, extra)) meeting_[num_meeting++] = e;
     }
     constexpr int AHEAD = 8;
     for (int i = 0; i < num_meeting + AHEAD; ++i) {

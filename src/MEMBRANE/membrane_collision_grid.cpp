@@ -195,13 +195,14 @@ template <class Visit> void SurfaceGrid::visit_cubes(double pad, const Visit &vi
         const Vector3d centre = lo_ + spacing_ * Vector3d(from[0] + 0.5, y + 0.5, z + 0.5);
         const double height = normal.dot(centre) + plane.offset;
         int first = 0, last = to[0] - from[0];    // of those with heights within bounds
-        if (std::fabs(rise) > ROUNDING * spacing_) {
+        const double room = ROUNDING * spacing_;
+        if (std::fabs(rise) > room) {
           double a = (-within - height) / rise, b = (within - height) / rise;
           if (rise < 0.0) std::swap(a, b);
-          if (!(b >= 0.0 && a <= last)) continue;
-          first = std::max(first, static_cast<int>(std::ceil(a - ROUNDING)));
-          last = std::min<double>(last, std::floor(b + ROUNDING));
-        } else if (std::fabs(height) > within + ROUNDING)
+          if (!(b >= -ROUNDING && a <= last + ROUNDING)) continue;
+          first = static_cast<int>(std::max(0.0, std::ceil(a - ROUNDING)));
+          last = static_cast<int>(std::min<double>(last, std::floor(b + ROUNDING)));
+        } else if (std::fabs(height) > within + (last + 1) * room)
           continue;
         const int row = (z * size_[1] + y) * size_[0] + from[0];
         if (first <= last) visit(static_cast<int>(t), row + first, row + last, height + first * rise, rise);

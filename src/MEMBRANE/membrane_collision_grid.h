@@ -60,6 +60,8 @@ class SurfaceGrid {
              const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
              const Eigen::Vector3d &lo, const Eigen::Vector3d &hi, const Settings &settings);
   bool is_built() const { return !start_.empty(); }
+  /// As it was built for.
+  const Eigen::Matrix3d &lattice() const { return lattice_; }
   /// Whether vertices are, at the start of a step, where the grid can find them.
   bool serves(const std::vector<SurfaceVertex> &vertices, const Eigen::Matrix3d &lattice);
 
@@ -164,7 +166,7 @@ class SurfaceGrid {
   double listed_ = 0.0;        // cubes know all triangles that are nearer than that now
   double most_moves_ = 0.0;    // of all triangles in this step
   double slack_ = 0.0;
-  Eigen::Matrix3d lattice_;
+  Eigen::Matrix3d lattice_ = Eigen::Matrix3d::Zero();
   std::vector<Image> images_;
   std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles or beyond the grid, or more
   std::vector<int> start_, list_;

@@ -59,7 +59,7 @@ struct PatchRule {
 
     Around an extraordinary corner the rule is graded and self-similar: the face is cut in four, the
     part at the corner again, and so on, each regular part getting the triangle rule, or from the
-    second level on, where parts are an eighth as wide as the face, the next cheaper one (SIX and TWELVE).
+    third cut on, which leaves parts an eighth as wide as the face, the next cheaper one (SIX and TWELVE).
     The last, the tip, is integrated too: a rule that leaves it out lets a minimiser hide energy there. The
     number of levels follows from how fast the energy of a level decays at that valence, so that
     the tip holds 1e-4 of the patch's energy (CAREFUL: 1e-11). */

@@ -22,6 +22,7 @@
 #include "distributed_mesh.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_deform.h"
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
@@ -54,8 +55,8 @@ static constexpr bigint MOST_DIRECT = 10000;
 
 SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, std::string user) :
     Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
-    level(level), mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false), shared_epoch(-1),
-    whole(0.0), ahead(0.0)
+    level(level), mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false),
+    remapped(false), shared_epoch(-1), whole(0.0), ahead(0.0)
 {
   mass.settings.kind = MassKind::VERTEX;
   mass.settings.tolerance = TOLERANCE;
@@ -67,6 +68,7 @@ void SurfaceMotion::init()
   mass.settings.direct = comm->nprocs == 1 && mass.count() <= MOST_DIRECT;
   shared_epoch = -1;
   check_movers();
+  find_box_movers();
   find_components();
   find_masses();
 }
@@ -104,6 +106,29 @@ void SurfaceMotion::check_movers()
     integrator->remember_displacement();
     integrators.push_back(integrator);
   }
+}
+
+/* ----------------------------------------------------------------------
+   fix deform takes either all atoms along at the end of a step, or none: then images of atoms move
+------------------------------------------------------------------------- */
+
+void SurfaceMotion::find_box_movers()
+{
+  remapped = false;
+  for (auto &fix : modify->get_fix_by_style("^deform")) {
+    const auto *deform = dynamic_cast<FixDeform *>(fix);
+    if (!deform || deform->remapflag != Domain::X_REMAP) continue;
+    int here = 0, any;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) here = 1;
+    MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
+    remapped = remapped || any;
+  }
+}
+
+bool SurfaceMotion::images_move() const
+{
+  return domain->deform_flag && !remapped;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -284,15 +309,15 @@ Matrix3d SurfaceMotion::lattice() const
 Matrix3d SurfaceMotion::lattice_rate() const
 {
   Matrix3d columns = Matrix3d::Zero();
-  if (!domain->deform_vremap) return columns;
+  if (!images_move()) return columns;
   const double *h = domain->h_rate;
   columns << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
   return columns;
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS changes velocities of atoms that pass through the boundary then: those of one membrane would be
-   in two frames, and neither masses nor places of control points would fit together
+   With remap v LAMMPS changes velocities of atoms that pass through the boundary: those of one membrane would be
+   in two frames, and neither masses nor places of control points would fit together; with remap none, places
 ------------------------------------------------------------------------- */
 
 void SurfaceMotion::check_frames()
@@ -307,8 +332,8 @@ void SurfaceMotion::check_frames()
     for (int k = 0; k < 3; ++k)
       if (rate.col(k).squaredNorm() > 0.0 && (n[k] != 0 || ring_seam[v][k] != 0))
         error->one(FLERR,
-                   "{}: the membrane of atom {} passes through the boundary of the box in {}, where fix "
-                   "deform with remap v gives atoms other velocities: keep it inside, or use remap x",
+                   "{}: the membrane of atom {} passes through the boundary of the box in {}, which fix "
+                   "deform moves without the atoms: keep it inside, or use remap x",
                    user, atom->tag[j], "xyz"[k]);
   }
 }
@@ -351,6 +376,8 @@ void SurfaceMotion::remember()
   if (!any_fixed) return;
   mass.refresh();
   mass.part().load(atom->x, remembered);
+  remembered_box = lattice();
+  remembered_corner = Vector3d::Map(domain->boxlo);
 }
 
 // r: limit positions, unwrapped
@@ -384,10 +411,14 @@ void SurfaceMotion::load_displacements()
   MeshPart &part = mass.part();
   moved.assign(part.size(), Vector4{});
   const Matrix3d box = lattice(), to_fraction = box.inverse();
+  const Vector3d corner = Vector3d::Map(domain->boxlo);
   if (any_fixed)
     for (int i = 0; i < part.owned; ++i) {
       if (is_free(part.vertices[i])) continue;
-      const Vector3d d = Vector3d::Map(atom->x[part.atom_of(i)]) - Vector3d::Map(remembered[i].c);
+      Vector3d before = Vector3d::Map(remembered[i].c);
+      if (remapped && box != remembered_box)    // fix deform has taken it along since
+        before = corner + box * remembered_box.inverse() * (before - remembered_corner);
+      const Vector3d d = Vector3d::Map(atom->x[part.atom_of(i)]) - before;
       Vector3d images = to_fraction * d;    // where another fix has wrapped it
       for (int k = 0; k < 3; ++k) images[k] = domain->periodicity[k] ? std::round(images[k]) : 0.0;
       Vector3d::Map(moved[i].c) = d - box * images;
@@ -438,7 +469,7 @@ void SurfaceMotion::share(int width)
 void SurfaceMotion::begin_step(double dt)
 {
   refresh();
-  if (domain->deform_vremap) check_frames();
+  if (images_move()) check_frames();
   load_displacements();
   for (int i = 0; i < part().owned; ++i)
     for (int k = 0; k < 3; ++k) moved[i].c[k] /= dt;

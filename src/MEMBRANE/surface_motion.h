@@ -124,7 +124,10 @@ class SurfaceMotion : protected Pointers {
   std::vector<std::array<int, 3>> offset;    // in box vectors, from unmapped atoms to one piece
   std::vector<std::array<int, 3>> ring_seam;    // sum over a vertex's ring of box vectors to its images
   bool any_fixed;    // some vertices do not yield to impulses
-  Membrane_NS::VertexField remembered;    // if so: x of the last step
+  Membrane_NS::VertexField remembered;    // if so: x of the last step, and the box then
+  Eigen::Matrix3d remembered_box;
+  Eigen::Vector3d remembered_corner;
+  bool remapped;                          // fix deform changes positions along with the box
   bigint shared_epoch;
   std::vector<int> atom_vertex;    // place in part() of local atoms, or -1
   std::vector<int> counts, starts, listed;    // all ranks' owned vertices
@@ -136,6 +139,8 @@ class SurfaceMotion : protected Pointers {
   Membrane_NS::VertexField q, moved, r, detour;
 
   void check_movers();
+  void find_box_movers();
+  bool images_move() const;
   void find_components();
   void find_masses();
   void refresh();

@@ -169,10 +169,12 @@ void SurfaceObstacle::build_grid(const Flight &flight)
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
   const auto images = grid.images();
+  const bool same_box = grid.lattice() == motion.lattice_now();
   grid.build(motion.surface(), *vertices, motion.lattice_now(), motion.periodic(), lo - margin,
              hi + margin, s);
   built_epoch = motion.epoch();
-  if (grid.images() != images) approaching.clear();    // it knows triangles by their numbers
+  // the list knows triangles by their numbers, and not of images that move with the box
+  if (!same_box || grid.images() != images) approaching.clear();
   if (comm->nprocs > 1 && !everywhere) find_shared();
 }
 
