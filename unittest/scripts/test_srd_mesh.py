@@ -417,7 +417,7 @@ near("a vesicle near the boundary of a box that shrinks, by a fix that has no so
 
 for remap, erate in (("x", -0.2), ("none", -0.05)):
     for what, mover in (("held", ""), ("moved", "fix 1 membrane move linear 0 0 -1\n"), ("free", "fix 1 membrane hd/nve\n")):
-        near(f"a sheet near the boundary of a box that shrinks, remap {remap}, {what}", SHEET.format(9.6), every=10,
+        near(f"a sheet near the boundary of a box that shrinks, remap {remap}, {what}", SHEET.format(9.35), every=10,
              steps=100, move=f"{mover}fix 3 all deform 1 z erate {erate} remap {remap}")
 said = error_of(NEAR.format(create=VESICLE.format(0), box="block 0 8 0 8 0 8", every=10, steps=10, args="", before="",
                             move="fix 3 solvent deform 1 z erate 0.1 remap x"))
