@@ -37,14 +37,11 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using Membrane_NS::CollisionRule;
-
-static constexpr double DEGREE = 3.14159265358979323846 / 180.0;
+using Inside = SRDMeshArguments::Inside;
+using Shift = SRDMeshArguments::Shift;
 
 // with shorter free paths than these, in cells, solvent meets the same partners again and again
 static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
-
-// faces can be cut in 4 so many times
-static constexpr int MOST_LEVEL = 4;
 
 // default modulus in kT that keeps faces from turning over among solvent
 static constexpr double STIFF_MESH = 10.0;
@@ -52,10 +49,10 @@ static constexpr double STIFF_MESH = 10.0;
 /* ---------------------------------------------------------------------- */
 
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), membrane(-1), temperature(0.0), lamda(0.0), seed(0), shift(Shift::NO),
-    cubic_error(true), cubic_tolerance(0.01), inside(Inside::WARN), noslip(true), control(false),
-    set_velocities(true), ghosts(false), level(0), bounces(0), search(0.0),
-    solvent(lmp, igroup), streaming(lmp), have_obstacle(false), running(false), membranes_join(false), aside(lmp, igroup, std::string("not_solvent_of_") + id),
+    Fix(lmp, narg, arg), given(SRDMeshArguments::parse(lmp, narg, arg)), membrane(given.membranes),
+    temperature(given.temperature), cell_settings(given.cells), solvent(lmp, igroup), streaming(lmp),
+    have_obstacle(false), running(false), membranes_join(false),
+    aside(lmp, igroup, std::string("not_solvent_of_") + id),
     num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
     velocities_stay(false), clear_forces(false), values{}, carried{}, sampled(-1)
 {
@@ -68,17 +65,20 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extvector = 0;
 
+  nevery = given.every;
+  streaming.walls = given.walls;
+
   if (domain->dimension != 3) error->all(FLERR, "Fix srd/mesh needs dimension 3");
-  parse(narg, arg);
   if (membrane < 0) return;
+  mass = std::make_unique<HDMass>(lmp, membrane, "Fix srd/mesh");
   SurfaceObstacle::Settings settings;
   settings.membranes = membrane;
-  settings.seed = seed;
-  settings.no_slip = noslip;
-  settings.control = control;
-  settings.level = level;
-  settings.most_bounces = bounces;
-  settings.spacing = search;
+  settings.seed = given.seed;
+  settings.no_slip = given.noslip;
+  settings.control = given.control;
+  settings.level = given.level;
+  settings.most_bounces = given.bounces;
+  settings.spacing = given.search;
   settings.stray = cell_settings.size;
   settings.user = "Fix srd/mesh";
   obstacle = std::make_unique<SurfaceObstacle>(lmp, settings);
@@ -92,135 +92,6 @@ FixSRDMesh::~FixSRDMesh()
 }
 
 /* ---------------------------------------------------------------------- */
-
-void FixSRDMesh::parse(int narg, char **arg)
-{
-  if (narg < 8) utils::missing_cmd_args(FLERR, "fix srd/mesh", error);
-  auto positive = [&](const char *what, const char *word) {
-    const double value = utils::numeric(FLERR, word, false, lmp);
-    if (!(value > 0.0)) error->all(FLERR, "Fix srd/mesh {} {} must be positive", what, word);
-    return value;
-  };
-  auto positive_integer = [&](const char *what, const char *word) {
-    const bigint value = utils::bnumeric(FLERR, word, false, lmp);
-    if (value <= 0) error->all(FLERR, "Fix srd/mesh {} {} must be positive", what, word);
-    return value;
-  };
-
-  nevery = utils::inumeric(FLERR, arg[3], false, lmp);
-  if (nevery <= 0) error->all(FLERR, "Fix srd/mesh N {} must be positive", arg[3]);
-  if (strcmp(arg[4], "NULL") != 0) {
-    membrane = group->find(arg[4]);
-    if (membrane < 0)
-      error->all(FLERR, "Fix srd/mesh: there is no group {} of membranes; NULL is for none",
-                 arg[4]);
-    mass = std::make_unique<HDMass>(lmp, membrane, "Fix srd/mesh");
-  }
-  temperature = positive("temperature", arg[5]);
-  cell_settings.size = positive("hgrid", arg[6]);
-  seed = cell_settings.rule.seed = positive_integer("seed", arg[7]);
-
-  int iarg = 8;
-  while (iarg < narg) {
-    const std::string key = arg[iarg];
-    auto need = [&](int n) {
-      if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix srd/mesh " + key, error);
-    };
-    auto choice = [&](const std::vector<std::string> &words) {
-      const auto found = std::find(words.begin(), words.end(), arg[iarg + 1]);
-      if (found == words.end()) {
-        std::string list = words[0];
-        for (size_t i = 1; i < words.size(); ++i)
-          list += (i + 1 == words.size() ? " or " : ", ") + words[i];
-        error->all(FLERR, "Fix srd/mesh {} {} is not {}", key, arg[iarg + 1], list);
-      }
-      return found - words.begin();
-    };
-    need(1);
-    const char *word = arg[iarg + 1];
-    int used = 2;
-    if (key == "lamda") {
-      lamda = positive("lamda", word);
-    } else if (key == "angle") {
-      const double degrees = utils::numeric(FLERR, word, false, lmp);
-      if (!(degrees > 0.0 && degrees <= 180.0))
-        error->all(FLERR, "Fix srd/mesh angle {} must be between 0 and 180 degrees", word);
-      cell_settings.rule.angle = DEGREE * degrees;
-    } else if (key == "method") {
-      cell_settings.rule.method = choice({"srd", "at+a"}) ? CollisionRule::Method::AT_A
-                                                          : CollisionRule::Method::SRD;
-    } else if (key == "collision") {
-      noslip = choice({"slip", "noslip"}) == 1;
-    } else if (key == "impulse") {
-      control = choice({"surface", "control"}) == 1;
-    } else if (key == "inside") {
-      inside = static_cast<Inside>(choice({"error", "warn", "ignore"}));
-    } else if (key == "level") {
-      level = utils::inumeric(FLERR, word, false, lmp);
-      if (level < 0 || level > MOST_LEVEL)
-        error->all(FLERR, "Fix srd/mesh level {} is not between 0 and {}", word, MOST_LEVEL);
-    } else if (key == "bounce") {
-      bounces = utils::inumeric(FLERR, word, false, lmp);
-      if (bounces < 0) error->all(FLERR, "Fix srd/mesh bounce {} must not be negative", word);
-    } else if (key == "search") {
-      search = positive("search", word);
-    } else if (key == "cubic") {
-      need(2);
-      used = 3;
-      cubic_error = choice({"error", "warn"}) == 0;
-      cubic_tolerance = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-      if (cubic_tolerance < 0.0 || cubic_tolerance > 1.0)
-        error->all(FLERR, "Fix srd/mesh cubic tolerance {} must be between 0 and 1", arg[iarg + 2]);
-    } else if (key == "shift") {
-      shift = static_cast<Shift>(choice({"no", "yes", "possible"}));
-      if (shift == Shift::NO && (iarg + 2 >= narg || !utils::is_integer(arg[iarg + 2]))) {
-        iarg += 2;    // a grid that stays needs no seed
-        continue;
-      }
-      need(2);
-      used = 3;
-      cell_settings.shift_seed = positive_integer("shift seed", arg[iarg + 2]);
-    } else if (key == "tstat") {
-      cell_settings.rule.thermostat = utils::logical(FLERR, word, false, lmp);
-    } else if (key == "velocity") {
-      set_velocities = choice({"keep", "create"}) == 1;
-    } else if (key == "ghosts") {
-      ghosts = utils::logical(FLERR, word, false, lmp);
-    } else if (key == "wall") {
-      streaming.walls.noslip = choice({"slip", "noslip"}) == 1;
-    } else if (key == "wall/velocity") {
-      need(4);
-      used = 5;
-      parse_wall_velocity(arg + iarg + 1);
-    } else
-      error->all(FLERR,
-                 "Unknown fix srd/mesh keyword {}; known are: lamda, angle, method, collision, "
-                 "impulse, level, inside, bounce, search, cubic, shift, tstat, velocity, "
-                 "ghosts, wall, wall/velocity",
-                 key);
-    iarg += used;
-  }
-  if (control && level > 0)
-    error->all(FLERR, "Fix srd/mesh impulse control acts on the triangles between vertices: leave out level");
-  if (cell_settings.rule.method == CollisionRule::Method::AT_A && cell_settings.rule.thermostat)
-    error->all(FLERR, "Fix srd/mesh method at+a is a thermostat: leave out tstat yes");
-}
-
-void FixSRDMesh::parse_wall_velocity(char **arg)
-{
-  const std::vector<std::string> faces = {"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"};
-  const int f = std::find(faces.begin(), faces.end(), arg[0]) - faces.begin();
-  if (f == 6)
-    error->all(FLERR, "Fix srd/mesh wall/velocity {} is not xlo, xhi, ylo, yhi, zlo or zhi",
-               arg[0]);
-  if (domain->periodicity[f / 2])
-    error->all(FLERR, "Fix srd/mesh wall/velocity {}: the box is periodic there, without wall",
-               arg[0]);
-  for (int k = 0; k < 3; ++k)
-    streaming.walls.velocity[f][k] = utils::numeric(FLERR, arg[1 + k], false, lmp);
-  if (streaming.walls.velocity[f][f / 2] != 0.0)
-    error->all(FLERR, "Fix srd/mesh wall/velocity {}: a wall can move along itself only", arg[0]);
-}
 
 int FixSRDMesh::setmask()
 {
@@ -243,7 +114,7 @@ void FixSRDMesh::init()
   solvent.refresh();
   check_group();
   find_influences();
-  aside.init(!ghosts);
+  aside.init(!given.ghosts);
   clear_forces = aside.active();
   streaming.find_walls();
 
@@ -416,13 +287,13 @@ void FixSRDMesh::prepare_cells()
   solvent.momentum(p);
   solvent_mass = p[3] / num_solvent;
   const double step = nevery * update->dt;
-  if (lamda > 0.0)
-    temperature = std::pow(lamda / step, 2) * solvent_mass * force->mvv2e / force->boltz;
+  if (given.lamda > 0.0)
+    temperature = std::pow(given.lamda / step, 2) * solvent_mass * force->mvv2e / force->boltz;
   cell_settings.rule.kT = kT();
   values[FREE_PATH] = Membrane_NS::mean_free_path(kT(), solvent_mass, step);
 
   const double path = values[FREE_PATH] / cell_settings.size;
-  cell_settings.shift = shift == Shift::YES || (shift == Shift::POSSIBLE && path < SHIFT_PATH);
+  cell_settings.shift = given.shift == Shift::YES || (given.shift == Shift::POSSIBLE && path < SHIFT_PATH);
   if (!cell_settings.shift && path < SHORT_PATH)
     error->all(FLERR,
                "Fix srd/mesh: a mean free path of {:.4g} cells is too short for a grid that stays: "
@@ -439,13 +310,13 @@ void FixSRDMesh::prepare_cells()
   cells->grid.setup(cell_settings.size);
   SRDGrid &grid = cells->grid;
   filling = num_solvent * grid.cell_volume() / (domain->xprd * domain->yprd * domain->zprd);
-  if (grid.deviation() > cubic_tolerance) {
+  if (grid.deviation() > given.cubic_tolerance) {
     const std::string text = fmt::format(
         "Fix srd/mesh: cells of {:.6g} x {:.6g} x {:.6g} that fit the box differ from hgrid {} by "
         "more than {}: change the box or hgrid, or allow it with cubic warn {:.2g}",
-        grid.edge(0), grid.edge(1), grid.edge(2), cell_settings.size, cubic_tolerance,
+        grid.edge(0), grid.edge(1), grid.edge(2), cell_settings.size, given.cubic_tolerance,
         std::ceil(100.0 * grid.deviation()) / 100.0);
-    if (cubic_error) error->all(FLERR, text);
+    if (given.cubic_error) error->all(FLERR, text);
     if (comm->me == 0 && first) error->warning(FLERR, text);
   }
 
@@ -485,7 +356,7 @@ void FixSRDMesh::setup_pre_neighbor()
 void FixSRDMesh::setup_pre_force(int)
 {
   zero_forces();
-  if (!velocities_set && set_velocities) maxwell();
+  if (!velocities_set && given.set_velocities) maxwell();
   velocities_set = true;
 }
 
@@ -493,7 +364,7 @@ void FixSRDMesh::setup(int)
 {
   sampled = -1;
   have_obstacle = obstacle && group->count(membrane) > 0;
-  membranes_join = have_obstacle && noslip;
+  membranes_join = have_obstacle && given.noslip;
   running = true;
   if (!have_obstacle) return;
   obstacle->forces_on_solvent = have_forces;
@@ -509,7 +380,7 @@ void FixSRDMesh::maxwell()
   double **v = atom->v;
   for (int i = solvent.first(); i < solvent.last(); ++i)
     if (solvent.has(i))
-      Membrane_NS::thermal_velocity(seed, update->ntimestep, atom->tag[i], kT(), solvent.mass()[i],
+      Membrane_NS::thermal_velocity(given.seed, update->ntimestep, atom->tag[i], kT(), solvent.mass()[i],
                                     v[i]);
   double p[4];
   solvent.momentum(p);
@@ -770,10 +641,10 @@ void FixSRDMesh::check_sides()
 {
   solvent.refresh();
   const bigint crossed = obstacle->check(solvent);
-  if (!crossed || inside == Inside::IGNORE) return;
+  if (!crossed || given.inside == Inside::IGNORE) return;
   const std::string text = fmt::format(
       "Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", crossed);
-  if (inside == Inside::ERROR) error->all(FLERR, text);
+  if (given.inside == Inside::ERROR) error->all(FLERR, text);
   if (comm->me == 0) error->warning(FLERR, text + ", and were put back");
 }
 

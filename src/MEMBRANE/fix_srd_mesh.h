@@ -24,6 +24,7 @@ FixStyle(srd/mesh,FixSRDMesh);
 #include "ghost_free_group.h"
 #include "hd_mass.h"
 #include "srd_cells.h"
+#include "srd_mesh_arguments.h"
 #include "srd_solvent.h"
 #include "srd_streaming.h"
 #include "surface_obstacle.h"
@@ -66,17 +67,9 @@ class FixSRDMesh : public Fix {
   double memory_usage() override;
 
  private:
-  // arguments
-  int membrane;    // group, or -1
-  double temperature, lamda;
-  uint64_t seed;
-  enum class Shift { NO, YES, POSSIBLE } shift;
-  bool cubic_error;
-  double cubic_tolerance;
-  enum class Inside { ERROR, WARN, IGNORE } inside;
-  bool noslip, control, set_velocities, ghosts;
-  int level, bounces;
-  double search;
+  const SRDMeshArguments given;
+  const int membrane;          // group, or -1
+  double temperature;
   SRDCells::Settings cell_settings;
 
   // the roles
@@ -107,8 +100,6 @@ class FixSRDMesh : public Fix {
   double values[NUM_VALUES], carried[NUM_VALUES];    // now; up to the restart file
   bigint sampled;
 
-  void parse(int, char **);
-  void parse_wall_velocity(char **);
   void check_group();
   void check_other_solvents();
   void check_box_movers();
