@@ -39,6 +39,8 @@ struct SurfaceFaces {
     is one that does. The grid serves until a vertex has moved by more than `skin`. */
 class SurfaceGrid {
   static constexpr int MOST_AWAY = 4;    // cubes are counted so far
+  // what undeflected vertices do not need of the slack: the rest is far above the tolerance of contacts
+  static constexpr double MOST_OF_IT = 0.999;
 
  public:
   struct Settings {
@@ -119,6 +121,13 @@ class SurfaceGrid {
       meets = meets && std::max(x[k], x[k] + path[k]) >= p.lo[k] - room &&
           std::min(x[k], x[k] + path[k]) <= p.hi[k] + room;
     return meets;
+  }
+  /// What it takes for a point that moves from x by `path` in this step to meet a triangle.
+  CollisionEvents::Needs needs(int triangle, const double *x, const double *path) const
+  {
+    if (!can_meet(triangle, x, path)) return CollisionEvents::Needs::TURN;
+    return can_meet(triangle, x, path, -MOST_OF_IT * slack_) ? CollisionEvents::Needs::NOTHING
+                                                              : CollisionEvents::Needs::DEFLECTION;
   }
   /// How far from a triangle a place is at the start of the step, or less.
   double off(int triangle, const double *x) const

@@ -52,8 +52,6 @@ static constexpr double SKIN = 0.35, REACH = 0.45;
 static constexpr double FIRST_SLACK = 0.004, MOST_SLACK = 0.15;
 // more for a step that needs it, which is likely too much for others
 static constexpr double MORE_SLACK = 1.5, LESS_SLACK = 0.99;
-// and so much of the slack less for undeflected ones; the rest is far above contact
-static constexpr double NO_SLACK = 0.999;
 static constexpr double SPACING = 1.2;
 // of the list of solvent that comes near, to begin with
 static constexpr double MARGIN = 0.2;
@@ -274,16 +272,12 @@ void SurfaceObstacle::note(int i, const std::vector<int> &triangles, const Fligh
   if (forces_on_solvent)
     events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
   const Vector3d way = flight.dt * path.velocity;
-  using Needs = CollisionEvents::Needs;
   for (int t : triangles) {
     const auto &image = grid.images()[t];
-    Needs needs = Needs::NOTHING;
-    if (!grid.can_meet(t, path.origin.data(), way.data())) needs = Needs::TURN;
-    else if (!grid.can_meet(t, path.origin.data(), way.data(), -NO_SLACK * vertex_slack)) needs = Needs::DEFLECTION;
     events.add_pair(t,
                     regions.side(regions.region[i], atom->image[i], motion.component(image.face),
                                  image.lattice),
-                    needs);
+                    grid.needs(t, path.origin.data(), way.data()));
   }
 }
 

@@ -225,8 +225,10 @@ struct Gas {
         if (found.empty()) return;
         near.push_back(i);
         events.add_point(p, 1.0 / point_mass, i, step + more);
+        const Vector3d way = time_step * p.velocity;
         for (int t : found)
-          events.add_pair(t, where.side(level[i], grid.images()[t].lattice[axis]));
+          events.add_pair(t, where.side(level[i], grid.images()[t].lattice[axis]),
+                          grid.needs(t, p.origin.data(), way.data()));
       };
       list.for_each_meeting(grid, time_step, more, [](int) {}, take);
       if (!all_found) {
@@ -646,6 +648,49 @@ TEST(CollisionEvents, NothingLeaksThroughAFinerVesicle)
     }
     EXPECT_EQ(leaks, 0);
     EXPECT_GT(gas.collisions, 1000);
+  }
+}
+
+TEST(SurfaceGrid, CubesKnowAllTrianglesWithinTheirReach)
+{
+  // as far as one look reaches, from places all over a surface that has moved within the skin, in several
+  // images; of all directions, with some triangles in planes of the cubes' faces
+
+  Random random(15);
+  TriangleMesh mesh = icosphere(2, 1.0);
+  for (Vector3d &x : mesh.points)
+    if (std::fabs(x[0]) < 0.35) x[0] = 0.1;
+  mesh.lattice = 2.6 * Matrix3d::Identity();
+  mesh.periodic = {true, true, false};
+  Gas gas(mesh, 1.0);
+  gas.points = {{Vector3d::Constant(-2.0), Vector3d::Zero()}, {Vector3d::Constant(2.0), Vector3d::Zero()}};
+  const double skin = 0.1, reach = 0.25;
+  for (double spacing : {0.1, 0.17, 0.5}) {
+    gas.build({skin, reach, spacing});
+    for (SurfaceVertex &v : gas.vertices) v.path.origin += 0.99 * skin * random.vector(1.0).normalized();
+    ASSERT_TRUE(gas.grid.serves(gas.vertices, mesh.lattice));
+    gas.grid.begin(gas.vertices, 0.0, 0.0);
+    std::vector<int> found;
+    int num_found = 0, missing = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3d x = random.vector(1.8);
+      ASSERT_TRUE(gas.grid.find(x, reach, found));
+      num_found += found.size();
+      std::vector<char> is_found(gas.grid.images().size(), 0);
+      for (int t : found) is_found[t] = 1;
+      for (size_t t = 0; t < is_found.size(); ++t) {
+        if (is_found[t]) continue;
+        const SurfaceTriangle &triangle = gas.grid.triangles()[t];
+        Vector3d corner[3];
+        for (int k = 0; k < 3; ++k)
+          corner[k] = gas.vertices[triangle.vertex[k]].path.origin + triangle.shift[k];
+        const auto b = nearest_on_triangle(x, corner[0], corner[1], corner[2]);
+        missing += (b[0] * corner[0] + b[1] * corner[1] + b[2] * corner[2] - x).norm() <= reach;
+      }
+    }
+    EXPECT_EQ(missing, 0) << "cubes of " << spacing;
+    EXPECT_GT(num_found, 4000);
+    for (size_t v = 0; v < mesh.points.size(); ++v) gas.vertices[v].path.origin = mesh.points[v];
   }
 }
 
