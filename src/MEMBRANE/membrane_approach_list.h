@@ -43,9 +43,9 @@ class ApproachList {
       a point comes at most by `room` further than its velocity takes it. */
   void begin(SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
              double horizon, double step, double room);
-  /** Call for all points, here those from first to last - 1, if given only those that has(i) takes. x, velocity: of all points,
-      three numbers each. Most are far away, and most others fly past, which takes one look at the grid
-      each. */
+  /** Call for all points, here those from first to last - 1, if `has` is given only those that it takes.
+      x, velocity: of all points, three numbers each. Most are far away, and most others fly past, which
+      takes one look at the grid each. */
   void offer(const SurfaceGrid &grid, int first, int last, const double *x, const double *velocity,
              const std::function<bool(int)> &has);
   /// All have been offered.

@@ -52,8 +52,9 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
 }
 
 /* ----------------------------------------------------------------------
-   G y = P x by rows of G, from the first to the last, G^T z = y by its columns, from the last to the first: each time
-   what is known of the others is taken off, in four sums, so that one does not wait for the other
+   G y = P x by rows of G, from the first to the last, G^T z = y by its columns, from the last to the
+   first: each time what is known of the others is taken off, in four sums, so that one does not wait for
+   the other
 ------------------------------------------------------------------------- */
 
 template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *, FIELDS> &x)

@@ -148,9 +148,9 @@ class SurfaceGrid {
       keep_passing(), which tells from one look what a cube's triangles have in common. */
   void measure_layers();
   static constexpr int BLOCK = 512;
-  /// Of the points numbered which[0] to which[n - 1], n <= BLOCK, leaves in front those that may come within `margin`
-  /// of a triangle in that time, on straight lines, and returns how many they are. Three numbers a point;
-  /// cubes: as from find_cubes().
+  /// Of the points numbered which[0] to which[n - 1], n <= BLOCK, leaves in front those that may come
+  /// within `margin` of a triangle in that time, on straight lines, and returns how many they are. Three
+  /// numbers a point; cubes: as from find_cubes().
   int keep_passing(const double *x, const double *velocity, const int *cubes, double time, double margin,
                    int *which, int n) const;
 
@@ -180,8 +180,8 @@ class SurfaceGrid {
   std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles or beyond the grid, or more
   std::vector<int> start_, list_;
 
-  // Of the triangles that a cube knows, the nearest to its centre leads it: of its normal are the planes
-  // between which all corners are of all the cubes that it leads.
+  // Of the triangles that a cube knows, the nearest to its centre leads it. All corners known to the cubes
+  // that a triangle leads lie between two planes with its normal: the layer.
   std::vector<int> lead_;    // by cube, or -1
   struct Corner {
     int vertex;
@@ -193,7 +193,8 @@ class SurfaceGrid {
   struct Layer {
     double normal[3], lo, hi;
   };
-  enum { OPEN, EMPTY, LED };     // layers beyond the grid and of a cube without triangles, then by leading triangle
+  // beyond the grid, of a cube without triangles, and then by leading triangle
+  enum { OPEN, EMPTY, LED };
   std::vector<Layer> layers_;
   std::vector<Eigen::Vector3d> corner_at_, corner_velocity_;    // in this step
   std::vector<double> corner_speed_;

@@ -593,7 +593,7 @@ double MassOperator::residual(const VertexField &p, const VertexField &v)
 double MassOperator::memory_usage() const
 {
   return sizeof(Vector4) * (previous_.capacity() + work_.capacity() + scratch_.capacity() +
-                            kick_.capacity()) +
+                            kick_.capacity() + whole_.capacity() + other_.capacity()) +
       sizeof(int) * (ring_.capacity() + ring_start_.capacity()) + 12.0 * rows_.nonZeros() +
       (factor_ ? factor_->memory_usage() : 0.0);
 }

@@ -167,7 +167,7 @@ class MassOperator {
   std::vector<double> diagonal_;
 
   std::unique_ptr<SparseCholesky> factor_;    // if direct: of S (VERTEX) or M (CONSISTENT)
-  VertexField whole_, other_;                         // by vertex of the topology
+  VertexField whole_, other_;                 // by vertex of the topology
 
   void build_rings(const Topology &topology);
   void build_rows(const Topology &topology, const std::vector<double> &masses,

@@ -87,7 +87,8 @@ class SRDGrid : protected Pointers {
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
   static constexpr int BLOCK = 512;
-  /// Which of up to BLOCK positions are beyond the faces of the box, or may be if that is tilted; returns how many.
+  /// Which of up to BLOCK positions are beyond the faces of the box, or may be if that is tilted; returns
+  /// how many.
   int find_outside(const double *x, int count, int *which) const;
   /// Back into the box in periodic directions in which this rank has all of it.
   void wrap(double *x, imageint &image) const;

@@ -316,8 +316,9 @@ Matrix3d SurfaceMotion::lattice_rate() const
 }
 
 /* ----------------------------------------------------------------------
-   With remap v LAMMPS changes velocities of atoms that pass through the boundary: those of one membrane would be
-   in two frames, and neither masses nor places of control points would fit together; with remap none, places
+   With remap v LAMMPS changes velocities of atoms that pass through the boundary: those of one membrane
+   would be in two frames, and neither masses nor places of control points would fit together; with remap
+   none, places would not
 ------------------------------------------------------------------------- */
 
 void SurfaceMotion::check_frames()

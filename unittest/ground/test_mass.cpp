@@ -210,6 +210,24 @@ TEST(MassOperator, DirectSolverInvertsTheLimitMask)
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(product[i].c[k], b[i].c[k], 1e-14);
 }
 
+TEST(MassOperator, TwoSolvesAtOnceAreTheSameAsOneAfterTheOther)
+{
+  for (bool direct : {true, false}) {
+    Body body(loop_refine(bipyramid(9)), MassKind::VERTEX, direct);
+    const VertexField b = rough(body.size());
+    const VertexField c(b.rbegin(), b.rend());
+    VertexField x(body.size()), y(body.size()), xs, ys;
+    body.matrix.solve_mask(b, x);
+    body.matrix.solve_mask(c, y);
+    body.matrix.solve_mask(b, c, xs, ys);
+    for (int i = 0; i < body.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(x[i].c[k], xs[i].c[k], 1e-14);
+        EXPECT_NEAR(y[i].c[k], ys[i].c[k], 1e-14);
+      }
+  }
+}
+
 TEST(MassOperator, NeedsAsManyPassesOnAnyMeshOfTheSameValences)
 {
   int passes = 0;

@@ -20,7 +20,7 @@ where positions have their exact distribution at the ends; there, where temperat
 smaller by (w dt)^2/4 of their energy. On average over all waves of the sheet in vacuum that is 0.3 % at this timestep, a
 tenth of its limit; with velocities on time it would be 0 here and as much too hot in the middle.
 
-    MEMBRANE_LONG=1    seven times as long, and collision slip, too
+    MEMBRANE_LONG=1    seven times as long, and collision slip, too, for twenty times as long
 """
 # timeout: 7200
 
