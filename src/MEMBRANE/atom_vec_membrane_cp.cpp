@@ -28,7 +28,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), surface(lmp)
+    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), surface(std::make_shared<DistributedMesh>(lmp))
 {
   mass_type = PER_ATOM;
   atom->rmass_flag = 1;
@@ -51,7 +51,7 @@ void AtomVecMembraneCP::process_args(int narg, char **arg)
   if (narg != 2 || strcmp(arg[0], "faces") != 0)
     error->all(FLERR, "Unknown atom_style membrane_cp argument {}; the only one is: faces TYPES",
                arg[0]);
-  surface.set_face_types(arg[1]);
+  surface->set_face_types(arg[1]);
 }
 
 void AtomVecMembraneCP::grow_pointers()

@@ -21,7 +21,7 @@ AtomStyle(membrane_cp,AtomVecMembraneCP);
 #define LMP_ATOM_VEC_MEMBRANE_CP_H
 
 #include "atom_vec_angle.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 
 namespace LAMMPS_NS {
 
@@ -34,11 +34,11 @@ class AtomVecMembraneCP : public AtomVecAngle, public MeshOwner {
   void grow_pointers() override;
   void create_atom_post(int) override;
   void data_atom_post(int) override;
-  DistributedMesh &mesh() override { return surface; }
+  const std::shared_ptr<DistributedMesh> &mesh() override { return surface; }
 
  private:
   double *rmass;
-  DistributedMesh surface;
+  std::shared_ptr<DistributedMesh> surface;
 };
 
 }    // namespace LAMMPS_NS

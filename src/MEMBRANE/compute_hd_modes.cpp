@@ -18,7 +18,7 @@
 #include "compute_hd_modes.h"
 
 #include "atom.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "group.h"

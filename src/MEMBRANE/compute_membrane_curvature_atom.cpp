@@ -17,7 +17,7 @@
 #include "compute_membrane_curvature_atom.h"
 
 #include "atom.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "error.h"
 #include "memory.h"
 #include "update.h"

@@ -18,7 +18,7 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "error.h"
 #include "group.h"
 #include "math_const.h"

@@ -20,7 +20,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_mesh_shapes.h"

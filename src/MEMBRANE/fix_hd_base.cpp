@@ -19,14 +19,14 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "error.h"
-#include "face_watch.h"
+#include "hd_face_watch.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "stiffness_probe.h"
+#include "hd_stiffness_probe.h"
 #include "update.h"
 
 #include <cmath>

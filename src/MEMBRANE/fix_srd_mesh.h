@@ -21,13 +21,13 @@ FixStyle(srd/mesh,FixSRDMesh);
 #define LMP_FIX_SRD_MESH_H
 
 #include "fix.h"
-#include "ghost_free_group.h"
+#include "srd_ghost_free_group.h"
 #include "hd_mass.h"
 #include "srd_cells.h"
 #include "srd_mesh_arguments.h"
 #include "srd_solvent.h"
 #include "srd_streaming.h"
-#include "surface_obstacle.h"
+#include "srd_obstacle.h"
 
 #include <memory>
 

@@ -18,7 +18,7 @@
 #include "hd_mass.h"
 
 #include "atom.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "error.h"
 #include "group.h"
 

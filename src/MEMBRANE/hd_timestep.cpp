@@ -19,7 +19,7 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
@@ -31,7 +31,7 @@
 #include "math_const.h"
 #include "membrane_tessellation.h"
 #include "neighbor.h"
-#include "stiffness_probe.h"
+#include "hd_stiffness_probe.h"
 #include "update.h"
 
 #include <Eigen/Dense>

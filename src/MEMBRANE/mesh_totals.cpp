@@ -17,7 +17,6 @@
 #include "mesh_totals.h"
 
 #include "atom.h"
-#include "distributed_mesh.h"
 #include "domain.h"
 
 #include <algorithm>
@@ -34,13 +33,15 @@ static constexpr imageint NOT_MOVED = (static_cast<imageint>(IMGMAX) << IMG2BITS
 
 /* ---------------------------------------------------------------------- */
 
-MeshTotals::MeshTotals(LAMMPS *lmp) : Pointers(lmp) {}
+MeshTotals::MeshTotals(LAMMPS *lmp, const LocalMesh &mesh) : Pointers(lmp), mesh(mesh) {}
 
 /* ---------------------------------------------------------------------- */
 
-void MeshTotals::reset(const DistributedMesh &of)
+// where the centres were when the mesh was last brought up to date
+
+void MeshTotals::place_centres()
 {
-  mesh = &of;
+  seen_update = mesh->updates();
   const auto &topology = mesh->topology();
   parts.assign(topology.num_components(), Total());
   for (int v = 0; v < topology.num_vertices(); ++v) {
@@ -81,6 +82,7 @@ void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &
 void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
                          FaceIntegrals &integrals, bool with_volume)
 {
+  if (seen_update != mesh->updates()) place_centres();
   const int nslots = count_slots(groups);
   integrals.area.resize(nslots);
   integrals.volume.resize(with_volume ? nslots : 0);

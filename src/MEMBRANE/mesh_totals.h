@@ -15,7 +15,7 @@
 #define LMP_MESH_TOTALS_H
 
 #include "membrane_helfrich.h"
-#include "pointers.h"
+#include "mesh_local.h"
 
 #include <vector>
 
@@ -35,10 +35,8 @@ class MeshTotals : protected Pointers {
     double centre[3] = {0.0, 0.0, 0.0};         ///< components only; unwrapped
   };
 
-  explicit MeshTotals(LAMMPS *);
-
-  /// Call after DistributedMesh::update() and before what follows.
-  void reset(const class DistributedMesh &);
+  /// The handle must outlive this.
+  MeshTotals(class LAMMPS *, const LocalMesh &);
 
   /** Collective. Areas, and volumes if wanted, of the faces of these groups, of their components
       and of their membranes. A membrane's volume is that of its closed components. With volumes, the
@@ -52,9 +50,11 @@ class MeshTotals : protected Pointers {
   int component_of(const Membrane_NS::FaceGroup &, int slot) const;
 
  private:
-  const class DistributedMesh *mesh = nullptr;
+  const LocalMesh &mesh;
+  bigint seen_update = -1;
   std::vector<Total> parts, wholes;
 
+  void place_centres();
   void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;
 };
 

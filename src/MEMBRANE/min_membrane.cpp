@@ -19,7 +19,7 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_minimize.h"

@@ -14,7 +14,7 @@
 #ifndef LMP_SRD_CELLS_H
 #define LMP_SRD_CELLS_H
 
-#include "membrane_box_walls.h"
+#include "membrane_srd_walls.h"
 #include "membrane_srd.h"
 #include "srd_grid.h"
 #include "srd_solvent.h"

@@ -14,7 +14,7 @@
 #ifndef LMP_SRD_MESH_ARGUMENTS_H
 #define LMP_SRD_MESH_ARGUMENTS_H
 
-#include "membrane_box_walls.h"
+#include "membrane_srd_walls.h"
 #include "srd_cells.h"
 
 #include <cstdint>

@@ -14,7 +14,7 @@
 #ifndef LMP_SRD_STREAMING_H
 #define LMP_SRD_STREAMING_H
 
-#include "membrane_box_walls.h"
+#include "membrane_srd_walls.h"
 #include "pointers.h"
 #include "srd_solvent.h"
 

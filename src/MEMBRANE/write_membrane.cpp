@@ -18,7 +18,7 @@
 #include "write_membrane.h"
 
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_tessellation.h"

@@ -15,15 +15,15 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_approach_list.h"
-#include "membrane_collision.h"
-#include "membrane_collision_events.h"
-#include "membrane_collision_grid.h"
-#include "membrane_inverse_mask.h"
+#include "membrane_srd_approach_list.h"
+#include "membrane_srd_collision.h"
+#include "membrane_srd_events.h"
+#include "membrane_srd_surface_grid.h"
+#include "membrane_srd_inverse_mask.h"
 #include "membrane_limit_basis.h"
 #include "membrane_mesh_shapes.h"
 #include "membrane_side.h"
-#include "membrane_surface_corners.h"
+#include "membrane_srd_corners.h"
 #include "membrane_tessellation.h"
 
 #include <gtest/gtest.h>

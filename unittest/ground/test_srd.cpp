@@ -1,6 +1,6 @@
 // Solvent of stochastic rotation dynamics: what a collision keeps and what it draws, walls, formulas.
 
-#include "membrane_box_walls.h"
+#include "membrane_srd_walls.h"
 #include "membrane_random.h"
 #include "membrane_srd.h"
 

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_collision_grid.h"
+#include "membrane_srd_surface_grid.h"
 
 #include <Eigen/Geometry>
 

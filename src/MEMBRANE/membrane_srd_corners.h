@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_SURFACE_CORNERS_H
-#define LMP_MEMBRANE_SURFACE_CORNERS_H
+#ifndef LMP_MEMBRANE_SRD_CORNERS_H
+#define LMP_MEMBRANE_SRD_CORNERS_H
 
 #include "membrane_topology.h"
 

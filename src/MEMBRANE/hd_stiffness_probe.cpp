@@ -15,14 +15,14 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "stiffness_probe.h"
+#include "hd_stiffness_probe.h"
 
 #include "angle.h"
 #include "atom.h"
 #include "bond.h"
 #include "comm.h"
 #include "dihedral.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "force.h"
 #include "improper.h"
 #include "kspace.h"

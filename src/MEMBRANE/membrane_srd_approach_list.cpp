@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_approach_list.h"
+#include "membrane_srd_approach_list.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_inverse_mask.h"
+#include "membrane_srd_inverse_mask.h"
 
 #include "membrane_limit_basis.h"
 

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -51,7 +51,7 @@ static constexpr char MISSING_ATOM[] =
 
 DistributedMesh::DistributedMesh(LAMMPS *lmp) : Pointers(lmp) {}
 
-DistributedMesh &DistributedMesh::of(LAMMPS *lmp, const std::string &user)
+const std::shared_ptr<DistributedMesh> &DistributedMesh::shared(LAMMPS *lmp, const std::string &user)
 {
   auto *owner = dynamic_cast<MeshOwner *>(lmp->atom->style_match("membrane_cp"));
   if (!owner)
@@ -137,6 +137,7 @@ void DistributedMesh::update()
   unwrap();
   measure_reach();
   stale = true;
+  ++update_count;
 
   // stencils that outgrow the margin are found in local_neighbor(); an edge and the skin is what
   // LAMMPS makes of the pair cutoff

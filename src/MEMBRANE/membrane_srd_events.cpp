@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_collision_events.h"
+#include "membrane_srd_events.h"
 
 #include <algorithm>
 

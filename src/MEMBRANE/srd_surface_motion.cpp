@@ -15,11 +15,11 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "surface_motion.h"
+#include "srd_surface_motion.h"
 
 #include "atom.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_deform.h"

@@ -11,12 +11,12 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SURFACE_REGIONS_H
-#define LMP_SURFACE_REGIONS_H
+#ifndef LMP_SRD_REGIONS_H
+#define LMP_SRD_REGIONS_H
 
 #include "membrane_side.h"
 #include "pointers.h"
-#include "surface_motion.h"
+#include "srd_surface_motion.h"
 
 #include <string>
 #include <vector>

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_COLLISION_H
-#define LMP_MEMBRANE_COLLISION_H
+#ifndef LMP_MEMBRANE_SRD_COLLISION_H
+#define LMP_MEMBRANE_SRD_COLLISION_H
 
 #include <Eigen/Core>
 

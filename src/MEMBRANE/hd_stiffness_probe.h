@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_STIFFNESS_PROBE_H
-#define LMP_STIFFNESS_PROBE_H
+#ifndef LMP_HD_STIFFNESS_PROBE_H
+#define LMP_HD_STIFFNESS_PROBE_H
 
 #include "hd_mass.h"
 

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_DISTRIBUTED_MESH_H
-#define LMP_DISTRIBUTED_MESH_H
+#ifndef LMP_MESH_DISTRIBUTED_H
+#define LMP_MESH_DISTRIBUTED_H
 
 #include "membrane_helfrich.h"
 #include "membrane_topology.h"
@@ -20,13 +20,15 @@
 #include "pointers.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 /** The mesh of all membranes of a simulation, as the ranks share it. Atom style membrane_cp owns
-    the one instance; pair, fixes, computes and commands reach it with DistributedMesh::of().
+    the one instance. Styles hold on to it with a LocalMesh; commands, which are done before LAMMPS
+    can replace the atom style, reach it with DistributedMesh::of().
 
     Vertices are the atoms that are corners of faces, numbered by increasing atom ID; faces are
     angles, numbered by their corners: the numbers do not depend on the decomposition. The topology
@@ -36,7 +38,9 @@ class DistributedMesh : protected Pointers {
   explicit DistributedMesh(class LAMMPS *);
 
   /// The mesh of this simulation; `user` is named in the error if the atom style has none.
-  static DistributedMesh &of(class LAMMPS *, const std::string &user);
+  static DistributedMesh &of(class LAMMPS *lmp, const std::string &user) { return *shared(lmp, user); }
+  /// The same, for one who outlives the atom style.
+  static const std::shared_ptr<DistributedMesh> &shared(class LAMMPS *, const std::string &user);
 
   /// Angles of these types are faces; "*" for all.
   void set_face_types(const std::string &types) { face_types = types; }
@@ -47,8 +51,10 @@ class DistributedMesh : protected Pointers {
       checks them, makes image flags of closed membranes consistent, and raises LAMMPS' communication
       cutoff to what the stencils need. */
   void update();
-  /// Counts topologies: differs after an update() that found changed faces.
+  /// Counts topologies: differs after an update() that found changed faces. 0 before the first.
   int generation() const { return version; }
+  /// Counts calls of update(): unwrapped() and all lengths are those of the last.
+  bigint updates() const { return update_count; }
 
   // === The whole mesh, the same on every rank
 
@@ -105,6 +111,7 @@ class DistributedMesh : protected Pointers {
  private:
   std::string face_types = "*";
   int version = 0;
+  bigint update_count = 0;
   bigint fingerprint = 0;    // of all faces
 
   Membrane_NS::Topology topo;
@@ -134,7 +141,7 @@ class DistributedMesh : protected Pointers {
 class MeshOwner {
  public:
   virtual ~MeshOwner() noexcept(false) = default;
-  virtual DistributedMesh &mesh() = 0;
+  virtual const std::shared_ptr<DistributedMesh> &mesh() = 0;
 };
 
 }    // namespace LAMMPS_NS

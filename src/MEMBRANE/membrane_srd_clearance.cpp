@@ -15,9 +15,9 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_clearance.h"
+#include "membrane_srd_clearance.h"
 
-#include "membrane_collision.h"
+#include "membrane_srd_collision.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,10 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_COLLISION_GRID_H
-#define LMP_MEMBRANE_COLLISION_GRID_H
+#ifndef LMP_MEMBRANE_SRD_SURFACE_GRID_H
+#define LMP_MEMBRANE_SRD_SURFACE_GRID_H
 
-#include "membrane_collision_events.h"
+#include "membrane_srd_events.h"
 #include "membrane_triangle_mesh.h"
 
 #include <algorithm>

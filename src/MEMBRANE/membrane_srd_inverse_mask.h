@@ -11,10 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_INVERSE_MASK_H
-#define LMP_MEMBRANE_INVERSE_MASK_H
+#ifndef LMP_MEMBRANE_SRD_INVERSE_MASK_H
+#define LMP_MEMBRANE_SRD_INVERSE_MASK_H
 
-#include "membrane_collision_events.h"
+#include "membrane_srd_events.h"
 #include "membrane_topology.h"
 
 #include <unordered_map>

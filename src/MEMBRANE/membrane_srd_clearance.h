@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_CLEARANCE_H
-#define LMP_MEMBRANE_CLEARANCE_H
+#ifndef LMP_MEMBRANE_SRD_CLEARANCE_H
+#define LMP_MEMBRANE_SRD_CLEARANCE_H
 
 #include "membrane_triangle_mesh.h"
 

@@ -11,10 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_APPROACH_LIST_H
-#define LMP_MEMBRANE_APPROACH_LIST_H
+#ifndef LMP_MEMBRANE_SRD_APPROACH_LIST_H
+#define LMP_MEMBRANE_SRD_APPROACH_LIST_H
 
-#include "membrane_collision_grid.h"
+#include "membrane_srd_surface_grid.h"
 
 #include <functional>
 #include <vector>

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "ghost_free_group.h"
+#include "srd_ghost_free_group.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -11,14 +11,14 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SURFACE_MOTION_H
-#define LMP_SURFACE_MOTION_H
+#ifndef LMP_SRD_SURFACE_MOTION_H
+#define LMP_SRD_SURFACE_MOTION_H
 
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "hd_mass.h"
-#include "membrane_collision_events.h"
-#include "membrane_collision_grid.h"
-#include "membrane_surface_corners.h"
+#include "membrane_srd_events.h"
+#include "membrane_srd_surface_grid.h"
+#include "membrane_srd_corners.h"
 
 #include <array>
 #include <memory>

@@ -11,18 +11,18 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SURFACE_OBSTACLE_H
-#define LMP_SURFACE_OBSTACLE_H
+#ifndef LMP_SRD_OBSTACLE_H
+#define LMP_SRD_OBSTACLE_H
 
-#include "membrane_approach_list.h"
-#include "membrane_collision_events.h"
-#include "membrane_collision_grid.h"
-#include "membrane_inverse_mask.h"
+#include "membrane_srd_approach_list.h"
+#include "membrane_srd_events.h"
+#include "membrane_srd_surface_grid.h"
+#include "membrane_srd_inverse_mask.h"
 #include "srd_cells.h"
 #include "srd_solvent.h"
 #include "srd_streaming.h"
-#include "surface_motion.h"
-#include "surface_regions.h"
+#include "srd_surface_motion.h"
+#include "srd_regions.h"
 
 #include <memory>
 #include <string>

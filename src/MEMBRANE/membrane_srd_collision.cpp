@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_collision.h"
+#include "membrane_srd_collision.h"
 
 #include <Eigen/Geometry>
 

@@ -16,9 +16,9 @@
 ------------------------------------------------------------------------- */
 
 
-#include "membrane_surface_corners.h"
+#include "membrane_srd_corners.h"
 
-#include "membrane_inverse_mask.h"
+#include "membrane_srd_inverse_mask.h"
 #include "membrane_limit_basis.h"
 #include "membrane_tessellation.h"
 

@@ -15,11 +15,11 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "surface_regions.h"
+#include "srd_regions.h"
 
 #include "atom.h"
 #include "comm.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_tessellation.h"

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_FACE_WATCH_H
-#define LMP_FACE_WATCH_H
+#ifndef LMP_HD_FACE_WATCH_H
+#define LMP_HD_FACE_WATCH_H
 
 #include "pointers.h"
 

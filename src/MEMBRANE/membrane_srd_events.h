@@ -11,12 +11,12 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_COLLISION_EVENTS_H
-#define LMP_MEMBRANE_COLLISION_EVENTS_H
+#ifndef LMP_MEMBRANE_SRD_EVENTS_H
+#define LMP_MEMBRANE_SRD_EVENTS_H
 
-#include "membrane_box_walls.h"
-#include "membrane_collision.h"
-#include "membrane_surface_corners.h"
+#include "membrane_srd_walls.h"
+#include "membrane_srd_collision.h"
+#include "membrane_srd_corners.h"
 
 #include <cstdint>
 #include <queue>

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_GHOST_FREE_GROUP_H
-#define LMP_GHOST_FREE_GROUP_H
+#ifndef LMP_SRD_GHOST_FREE_GROUP_H
+#define LMP_SRD_GHOST_FREE_GROUP_H
 
 #include "pointers.h"
 

@@ -15,10 +15,10 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "face_watch.h"
+#include "hd_face_watch.h"
 
 #include "atom.h"
-#include "distributed_mesh.h"
+#include "mesh_distributed.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "membrane_regularization.h"

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_MEMBRANE_BOX_WALLS_H
-#define LMP_MEMBRANE_BOX_WALLS_H
+#ifndef LMP_MEMBRANE_SRD_WALLS_H
+#define LMP_MEMBRANE_SRD_WALLS_H
 
 namespace Membrane_NS {
 

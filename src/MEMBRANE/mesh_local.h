@@ -1,0 +1,64 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MESH_LOCAL_H
+#define LMP_MESH_LOCAL_H
+
+#include "mesh_distributed.h"
+
+#include <memory>
+#include <string>
+
+namespace LAMMPS_NS {
+
+/** A style's hold on the mesh: it owns one of these, asks it in init() and in each step, and derives
+    anew what has changed. Between runs LAMMPS may replace the atom style and with it the mesh
+    (replicate, read_restart), delete, add or renumber atoms; within a run atoms move between ranks.
+
+      init():      mesh.init();                    // then what follows from the topology
+      each step:   switch (mesh.follow()) {
+                     case MeshChange::TOPOLOGY: ...    // the same again
+                     case MeshChange::NUMBERS: ...     // what follows from local indices
+                     case MeshChange::NOTHING: ;
+                   } */
+enum class MeshChange {
+  NOTHING,
+  NUMBERS,    ///< which points and faces this rank owns, local indices of atoms
+  TOPOLOGY    ///< faces, membranes, and the numbers
+};
+
+class LocalMesh : protected Pointers {
+ public:
+  /// Stops if the atom style has no mesh; `user` is named in errors.
+  LocalMesh(class LAMMPS *, std::string user);
+
+  /// Collective; call from init(). Takes hold of the mesh of the present atom style and brings it up to
+  /// date. The next follow() reports NUMBERS at least.
+  void init();
+  /** Collective; call in each step before the mesh is used. What has changed since the last call or
+      init(). Stops if atoms were replaced since init(), as a compute asked between runs finds. */
+  MeshChange follow();
+
+  DistributedMesh *operator->() const { return mesh.get(); }
+  DistributedMesh &operator*() const { return *mesh; }
+
+ private:
+  std::string user;
+  std::shared_ptr<DistributedMesh> mesh;
+  int generation;
+  bigint epoch;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
