@@ -18,9 +18,9 @@
 #include "compute_hd_modes.h"
 
 #include "atom.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "group.h"
 #include "math_const.h"
 #include "memory.h"
@@ -72,10 +72,10 @@ static Quadrature parse_quadrature(LAMMPS *lmp, int narg, char **arg)
 ------------------------------------------------------------------------- */
 
 ComputeHDModes::ComputeHDModes(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), shape(Shape::PLANE), highest(0), mesh(nullptr),
-    rules(parse_quadrature(lmp, narg, arg)), totals(lmp), generation(0), component(0), epoch(-1)
+    Compute(lmp, narg, arg), shape(Shape::PLANE), highest(0), mesh(lmp, fmt::format("Compute {} hd/modes", id)),
+    rules(parse_quadrature(lmp, narg, arg)), totals(lmp, mesh), component(0)
 {
-  DistributedMesh::of(lmp, "Compute hd/modes");
+  mesh.require();
   if (narg < 5) utils::missing_cmd_args(FLERR, "compute hd/modes", error);
   if (strcmp(arg[3], "plane") == 0)
     shape = Shape::PLANE;
@@ -126,9 +126,7 @@ ComputeHDModes::~ComputeHDModes()
 
 void ComputeHDModes::init()
 {
-  mesh = &DistributedMesh::of(lmp, "Compute hd/modes");
-  mesh->update();
-  epoch = -1;
+  mesh.init();
   choose_membrane();
 }
 
@@ -187,9 +185,7 @@ void ComputeHDModes::choose_membrane()
                "no spherical harmonics: use compute membrane/shape",
                id, molecule, topology.euler_characteristic(component));
 
-  totals.reset(*mesh);
   heights.clear();
-  generation = mesh->generation();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -208,7 +204,7 @@ void ComputeHDModes::join_heights()
 {
   heights.clear();
   mesh->refresh();
-  if (!domain->zperiodic || mesh->generation() != generation) return;
+  if (!domain->zperiodic) return;
 
   const auto &topology = mesh->topology();
   std::vector<int> lacking(topology.num_vertices(), 0);
@@ -255,22 +251,18 @@ void ComputeHDModes::localize()
     groups.push_back(std::move(group));
   }
   model.resize(slot);
-  epoch = mesh->epoch();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void ComputeHDModes::measure()
 {
-  mesh = &DistributedMesh::of(lmp, "Compute hd/modes");
-  if (mesh->generation() == 0)
-    error->all(FLERR, "Compute {} hd/modes: atoms were replaced since the last run: use run 0", id);
-  mesh->refresh();
-  if (mesh->generation() != generation) {
+  const MeshChange changed = mesh.follow();
+  if (changed == MeshChange::TOPOLOGY) {
     choose_membrane();
     setup();
   }
-  if (epoch != mesh->epoch()) localize();
+  if (changed != MeshChange::NOTHING) localize();
   if (shape == Shape::PLANE)
     measure_plane();
   else

@@ -45,14 +45,12 @@ class ComputeHDModes : public Compute {
   Shape shape;
   int highest;    // NMAX or LMAX
 
-  class DistributedMesh *mesh;
+  LocalMesh mesh;
   Membrane_NS::PatchRules rules;
   MeshTotals totals;
-  int generation;    // topology that what follows is for
   int component;
   std::vector<int> heights;    // by vertex: box lengths in z from its image flag to a whole sheet
 
-  bigint epoch;    // reneighbouring that what follows is for
   std::vector<Membrane_NS::FaceGroup> groups;
   Membrane_NS::FaceModel model;
   Membrane_NS::FaceIntegrals integrals;

@@ -17,8 +17,8 @@
 #include "compute_membrane_curvature_atom.h"
 
 #include "atom.h"
-#include "mesh_distributed.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "memory.h"
 #include "update.h"
 
@@ -35,9 +35,9 @@ enum { MEAN, GAUSSIAN, POSITION, NORMAL = POSITION + 3, NCOLUMNS = NORMAL + 3 };
 /* ---------------------------------------------------------------------- */
 
 ComputeMembraneCurvatureAtom::ComputeMembraneCurvatureAtom(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), mesh(nullptr), epoch(-1), nmax(0)
+    Compute(lmp, narg, arg), mesh(lmp, fmt::format("Compute {} membrane/curvature/atom", id)), nmax(0)
 {
-  DistributedMesh::of(lmp, "Compute membrane/curvature/atom");
+  mesh.require();
   if (narg != 3)
     error->all(FLERR, "Compute membrane/curvature/atom has no arguments, but got: {}", arg[3]);
   peratom_flag = 1;
@@ -53,9 +53,7 @@ ComputeMembraneCurvatureAtom::~ComputeMembraneCurvatureAtom()
 
 void ComputeMembraneCurvatureAtom::init()
 {
-  mesh = &DistributedMesh::of(lmp, "Compute membrane/curvature/atom");
-  mesh->update();
-  epoch = -1;
+  mesh.init();
 }
 
 /* ----------------------------------------------------------------------
@@ -66,7 +64,6 @@ void ComputeMembraneCurvatureAtom::init()
 
 void ComputeMembraneCurvatureAtom::localize()
 {
-  epoch = mesh->epoch();
   sites.clear();
   patches.clear();
   points.clear();
@@ -138,14 +135,7 @@ LimitPoint ComputeMembraneCurvatureAtom::evaluate(const Patch &patch, const doub
 void ComputeMembraneCurvatureAtom::compute_peratom()
 {
   invoked_peratom = update->ntimestep;
-  mesh = &DistributedMesh::of(lmp, "Compute membrane/curvature/atom");
-  if (mesh->generation() == 0)
-    error->all(
-        FLERR,
-        "Compute {} membrane/curvature/atom: atoms were replaced since the last run: use run 0",
-        id);
-  mesh->refresh();
-  if (epoch != mesh->epoch()) localize();
+  if (mesh.follow() != MeshChange::NOTHING) localize();
 
   if (atom->nmax > nmax) {
     nmax = atom->nmax;

@@ -22,6 +22,7 @@ ComputeStyle(membrane/curvature/atom,ComputeMembraneCurvatureAtom);
 
 #include "compute.h"
 #include "membrane_curvature.h"
+#include "mesh_local.h"
 
 #include <map>
 #include <vector>
@@ -57,11 +58,10 @@ class ComputeMembraneCurvatureAtom : public Compute {
     size_t first;
   };
 
-  class DistributedMesh *mesh;
+  LocalMesh mesh;
   std::map<int, Weights> vertex_weights;    // by valence
   std::map<Membrane_NS::Valences, Weights> corner_weights;
 
-  bigint epoch;    // reneighbouring that what follows is for
   std::vector<Site> sites;
   std::vector<Patch> patches;
   std::vector<int> points;

@@ -18,8 +18,8 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "error.h"
+#include "fmt/format.h"
 #include "group.h"
 #include "math_const.h"
 #include "math_extra.h"
@@ -89,10 +89,10 @@ static Quadrature parse_arguments(LAMMPS *lmp, int narg, char **arg)
 ------------------------------------------------------------------------- */
 
 ComputeMembraneShape::ComputeMembraneShape(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), mesh(nullptr), rules(parse_arguments(lmp, narg, arg)), totals(lmp),
-    generation(0), epoch(-1)
+    Compute(lmp, narg, arg), mesh(lmp, fmt::format("Compute {} membrane/shape", id)),
+    rules(parse_arguments(lmp, narg, arg)), totals(lmp, mesh)
 {
-  DistributedMesh::of(lmp, "Compute membrane/shape");
+  mesh.require();
   vector_flag = array_flag = 1;
   size_vector = size_array_cols = NCOLUMNS;
   size_array_rows = 0;
@@ -111,9 +111,7 @@ ComputeMembraneShape::~ComputeMembraneShape()
 
 void ComputeMembraneShape::init()
 {
-  mesh = &DistributedMesh::of(lmp, "Compute membrane/shape");
-  mesh->update();
-  epoch = -1;
+  mesh.init();
   choose_membranes();
 }
 
@@ -154,9 +152,6 @@ void ComputeMembraneShape::choose_membranes()
   memory->destroy(array);
   memory->create(array, MAX(size_array_rows, 1), NCOLUMNS, "membrane/shape:array");
   std::fill_n(array[0], MAX(size_array_rows, 1) * NCOLUMNS, 0.0);
-
-  totals.reset(*mesh);
-  generation = mesh->generation();
 }
 
 /* ----------------------------------------------------------------------
@@ -166,7 +161,6 @@ void ComputeMembraneShape::choose_membranes()
 void ComputeMembraneShape::localize()
 {
   groups = mesh->local_groups(rules);
-  epoch = mesh->epoch();
   const int nslots = count_slots(groups);
   model.resize(nslots);
   curvature.resize(nslots);
@@ -223,13 +217,9 @@ void ComputeMembraneShape::measure_quality(const FaceGroup &group, int s, double
 
 void ComputeMembraneShape::measure()
 {
-  mesh = &DistributedMesh::of(lmp, "Compute membrane/shape");
-  if (mesh->generation() == 0)
-    error->all(FLERR,
-               "Compute {} membrane/shape: atoms were replaced since the last run: use run 0", id);
-  mesh->refresh();
-  if (mesh->generation() != generation) choose_membranes();
-  if (epoch != mesh->epoch()) localize();
+  const MeshChange changed = mesh.follow();
+  if (changed == MeshChange::TOPOLOGY) choose_membranes();
+  if (changed != MeshChange::NOTHING) localize();
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   totals.measure(groups, model, integrals, true);

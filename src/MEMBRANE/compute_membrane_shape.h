@@ -41,13 +41,11 @@ class ComputeMembraneShape : public Compute {
   double memory_usage() override;
 
  private:
-  class DistributedMesh *mesh;
+  LocalMesh mesh;
   Membrane_NS::PatchRules rules;
   MeshTotals totals;
-  int generation;              // topology that what follows is for
   std::vector<int> members;    // membranes of the group, one to a row
 
-  bigint epoch;    // reneighbouring that what follows is for
   std::vector<Membrane_NS::FaceGroup> groups;
   std::vector<int>
       beyond;    // [slots][3] local index of the point across the edge from each corner

@@ -20,13 +20,14 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "membrane_mesh_file.h"
 #include "membrane_mesh_shapes.h"
 #include "memory.h"
+#include "mesh_box.h"
+#include "mesh_distributed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +64,8 @@ void CreateMembrane::command(int narg, char **arg)
                       "create_box");
 
   TriangleMesh mesh;
-  for (int k = 0; k < 3; ++k) mesh.periodic[k] = domain->periodicity[k] != 0;
-  mesh.lattice << domain->h[0], domain->h[5], domain->h[4], 0.0, domain->h[1], domain->h[3], 0.0,
-      0.0, domain->h[2];
+  mesh.periodic = periodic_directions(*domain);
+  mesh.lattice = box_vectors(*domain);
   for (int k = 0; k < 3; ++k) centre[k] = 0.5 * (domain->boxlo[k] + domain->boxhi[k]);
   if (domain->triclinic) {
     double half[3] = {0.5, 0.5, 0.5};

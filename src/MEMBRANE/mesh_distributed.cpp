@@ -24,6 +24,7 @@
 #include "error.h"
 #include "fmt/format.h"
 #include "memory.h"
+#include "mesh_box.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -251,9 +252,8 @@ bool DistributedMesh::is_closed_membrane(int membrane) const
 Membrane_NS::TriangleMesh DistributedMesh::triangle_mesh() const
 {
   Membrane_NS::TriangleMesh mesh;
-  const double *h = domain->h;
-  mesh.lattice << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
-  for (int k = 0; k < 3; ++k) mesh.periodic[k] = domain->periodicity[k] != 0;
+  mesh.lattice = box_vectors(*domain);
+  mesh.periodic = periodic_directions(*domain);
   for (size_t i = 0; i < whole.size(); i += 3)
     mesh.points.emplace_back(whole[i], whole[i + 1], whole[i + 2]);
   mesh.faces = topo.faces();

@@ -24,9 +24,13 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 LocalMesh::LocalMesh(LAMMPS *lmp, std::string user) :
-    Pointers(lmp), user(std::move(user)), mesh(DistributedMesh::shared(lmp, this->user)),
-    generation(0), epoch(-1)
+    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1)
 {
+}
+
+void LocalMesh::require() const
+{
+  DistributedMesh::of(lmp, user);
 }
 
 void LocalMesh::init()

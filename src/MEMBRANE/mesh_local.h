@@ -39,8 +39,10 @@ enum class MeshChange {
 
 class LocalMesh : protected Pointers {
  public:
-  /// Stops if the atom style has no mesh; `user` is named in errors.
+  /// `user` is named in errors.
   LocalMesh(class LAMMPS *, std::string user);
+  /// Stops if the atom style has no mesh: for constructors of styles that are made after it.
+  void require() const;
 
   /// Collective; call from init(). Takes hold of the mesh of the present atom style and brings it up to
   /// date. The next follow() reports NUMBERS at least.

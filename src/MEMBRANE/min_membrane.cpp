@@ -19,8 +19,6 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
-#include "domain.h"
 #include "error.h"
 #include "fix_minimize.h"
 #include "force.h"
@@ -43,14 +41,14 @@ static constexpr double MOST_STRAIN = 0.3;    // of an edge, in one iteration
 /* ---------------------------------------------------------------------- */
 
 MinMembrane::MinMembrane(LAMMPS *lmp) :
-    MinLineSearch(lmp), mesh(nullptr), s{}, y{}, rho{}, pairs(0), newest(0)
+    MinLineSearch(lmp), mesh(lmp, "Min style membrane"), s{}, y{}, rho{}, pairs(0), newest(0)
 {
 }
 
 void MinMembrane::init()
 {
   MinLineSearch::init();
-  mesh = &DistributedMesh::of(lmp, "Min style membrane");
+  mesh.require();
   if (nextra_global || nextra_atom)
     error->all(FLERR, "Min style membrane moves atoms only: use another min_style with fix "
                       "box/relax and with pair styles that have extra degrees of freedom");
@@ -76,16 +74,12 @@ void MinMembrane::reset_vectors()
 
 void MinMembrane::build_metric()
 {
-  mesh->update();
+  mesh.init();
   const auto &topology = mesh->topology();
   const int n = topology.num_vertices();
   if (n == 0) error->all(FLERR, "Min style membrane finds no membrane");
 
-  shape.points.resize(n);
-  for (int v = 0; v < n; ++v) shape.points[v] = Eigen::Vector3d(&mesh->unwrapped()[3 * v]);
-  shape.lattice << domain->h[0], domain->h[5], domain->h[4], 0.0, domain->h[1], domain->h[3], 0.0,
-      0.0, domain->h[2];
-  for (int k = 0; k < 3; ++k) shape.periodic[k] = domain->periodicity[k] != 0;
+  shape = mesh->triangle_mesh();
 
   // bending moduli of the control points, from the pair style
 

@@ -21,6 +21,7 @@ MinimizeStyle(membrane,MinMembrane);
 #define LMP_MIN_MEMBRANE_H
 
 #include "membrane_metric.h"
+#include "mesh_local.h"
 #include "min_linesearch.h"
 
 #include <memory>
@@ -41,7 +42,7 @@ class MinMembrane : public MinLineSearch {
  private:
   static constexpr int MEMORY = 40;
 
-  class DistributedMesh *mesh;
+  LocalMesh mesh;
   std::unique_ptr<Membrane_NS::BendingMetric> metric;
   Membrane_NS::TriangleMesh shape;
 

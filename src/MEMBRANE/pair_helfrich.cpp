@@ -19,7 +19,6 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -51,9 +50,9 @@ static constexpr double MOST_QUADRATURE_ERROR = 0.1;
 /* ---------------------------------------------------------------------- */
 
 PairHelfrich::PairHelfrich(LAMMPS *lmp) :
-    Pair(lmp), quadrature(Quadrature::SIX), mesh(nullptr), generation(0), first_pass(false),
+    Pair(lmp), quadrature(Quadrature::SIX), mesh(lmp, "Pair style helfrich"), first_pass(false),
     volumes(false), area_local(false), gauss(false), regularized(false), report(false),
-    default_regularize(0.0), terms_for_default(0.0), points_evaluated(0.0), restored(false), epoch(-1), totals(lmp)
+    default_regularize(0.0), terms_for_default(0.0), points_evaluated(0.0), restored(false), stale(true), totals(lmp, mesh)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -93,7 +92,7 @@ void PairHelfrich::settings(int narg, char **arg)
                    "pair_style helfrich quadrature 1 has zero-energy wrinkles and is second-order "
                    "only; results are not to be trusted without comparison to quadrature 6");
   rules = std::make_unique<PatchRules>(quadrature);
-  epoch = -1;
+  stale = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -140,10 +139,8 @@ void PairHelfrich::coeff(int narg, char **arg)
 
 void PairHelfrich::init_style()
 {
-  mesh = &DistributedMesh::of(lmp, "Pair style helfrich");
   default_regularize = 0.0;    // fixes that need one set it in their own init()
-  mesh->update();
-  epoch = -1;
+  mesh.init();
 
   // every control point has coefficients, every atom with coefficients is a control point
 
@@ -260,8 +257,6 @@ void PairHelfrich::choose_terms()
       regularized = regularized || regularize_of(c) != 0.0;
     }
 
-  totals.reset(*mesh);
-
   for (auto &c : coefficients) c.fresh = false;
   restored = false;
 
@@ -270,7 +265,6 @@ void PairHelfrich::choose_terms()
   report = false;
   if (!modify->get_compute_by_style("^pair$").empty())
     for (int m = 0; m < nmembranes; ++m) report = report || mesh->is_closed_membrane(m);
-  generation = mesh->generation();
   terms_for_default = default_regularize;
 
   membrane_faces.clear();
@@ -357,7 +351,7 @@ void PairHelfrich::localize()
                                [&](int f) { return is_excluded(f, stencil); }),
                 faces.end());
   groups = mesh->local_groups(*rules, faces);
-  epoch = mesh->epoch();
+  stale = false;
   const int nslots = count_slots(groups);
   model.resize(nslots);
   base_tension.assign(nslots, 0.0);
@@ -490,12 +484,12 @@ void PairHelfrich::share_volume_recoil()
 void PairHelfrich::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  mesh->refresh();
-  if (mesh->generation() != generation || terms_for_default != default_regularize) {
+  const MeshChange changed = mesh.follow();
+  if (changed == MeshChange::TOPOLOGY || terms_for_default != default_regularize) {
     choose_terms();
-    epoch = -1;
+    stale = true;
   }
-  if (epoch != mesh->epoch()) localize();
+  if (stale || changed != MeshChange::NOTHING) localize();
 
   const bool wants_volume = volumes || (eflag_global && report);
   if (first_pass || wants_volume) {
@@ -578,7 +572,7 @@ void PairHelfrich::finish()
   localize();
   const double there = bending();
   std::swap(rules, kept);
-  epoch = -1;
+  stale = true;
 
   double largest_kc = 0.0;
   for (const HelfrichCoefficients &c : coefficients) largest_kc = MAX(largest_kc, c.kc);

@@ -69,8 +69,7 @@ class PairHelfrich : public Pair {
   std::vector<double> moduli;                // kc by type, for extract()
   std::map<tagint, Reference> references;    // by molecule ID
 
-  class DistributedMesh *mesh;
-  int generation;                                      // topology that what follows is for
+  LocalMesh mesh;
   std::vector<const HelfrichCoefficients *> membrane_terms;    // whose global terms a membrane has
   std::vector<char> membrane_volume;                   // whether its volume is wanted
   std::vector<std::vector<int>> membrane_faces;        // for area/local only
@@ -82,7 +81,7 @@ class PairHelfrich : public Pair {
 
   std::vector<std::string> warned;    // of these fixes
 
-  bigint epoch;    // reneighbouring that what follows is for
+  bool stale;    // what follows is to be derived anew
   std::vector<Membrane_NS::FaceGroup> groups;
   Membrane_NS::FaceModel model;
   Membrane_NS::FaceIntegrals integrals;
