@@ -31,6 +31,7 @@ class MeshTotals : protected Pointers {
   /// Sums over a connected component of the mesh, or what they give for a membrane.
   struct Total {
     double area = 0.0, volume = 0.0;
+    double curvature = 0.0;                     ///< integral of 2H
     double vector_area[3] = {0.0, 0.0, 0.0};    ///< components only
     double centre[3] = {0.0, 0.0, 0.0};         ///< components only; unwrapped
   };
@@ -38,11 +39,15 @@ class MeshTotals : protected Pointers {
   /// The handle must outlive this.
   MeshTotals(class LAMMPS *, const LocalMesh &);
 
-  /** Collective. Areas, and volumes if wanted, of the faces of these groups, of their components
+  /// What besides areas.
+  struct Wanted {
+    bool volume, curvature;
+  };
+  /** Collective. Areas, and what else is wanted, of the faces of these groups, of their components
       and of their membranes. A membrane's volume is that of its closed components. With volumes, the
       model's origins are at the centres afterwards, moved to the periodic image each face is in. */
   void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
-               Membrane_NS::FaceIntegrals &, bool with_volume);
+               Membrane_NS::FaceIntegrals &, const Wanted &);
   const std::vector<Total> &components() const { return parts; }
   const std::vector<Total> &membranes() const { return wholes; }
 

@@ -209,7 +209,7 @@ class Scene {
   const Topology &topology() const { return topology_; }
   std::vector<FaceGroup> &groups() { return groups_; }
   FaceModel &model() { return model_; }
-  HelfrichTerms &terms() { return terms_; }
+  FaceTerms &terms() { return terms_; }
   FaceEnergies &last_energies() { return energies_; }
 
   /// Volumes are measured from here.
@@ -268,7 +268,7 @@ class Scene {
   std::vector<Moduli> moduli_;
   std::vector<FaceGroup> groups_;
   FaceModel model_;
-  HelfrichTerms terms_;
+  FaceTerms terms_;
   FaceEnergies energies_;
   std::vector<Local> locals_;    // vertices, then ghosts
 
