@@ -89,7 +89,7 @@ SCENES = {
 }
 
 # pair_coeff of types 1 and 2; of which every term has its forces
-GLOBAL = "area 70.0 9.0 area/local 40.0 volume 60.0 3.0 pressure 1.5"
+GLOBAL = "area 70.0 9.0 area/local 40.0 area/difference 8.0 2.0 thickness 0.1 volume 60.0 3.0 pressure 1.5"
 TERMS = {
     "bending": ("10.0 0.0", "15.0 0.0"),
     "spontaneous curvature": ("10.0 0.8", "15.0 -0.4"),
@@ -97,6 +97,7 @@ TERMS = {
     "tension": ("0.0 0.0 tension 3.0", "0.0 0.0 tension 5.0"),
     "area": ("0.0 0.0 area 70.0 9.0",) * 2,
     "area/local": ("0.0 0.0 area/local 40.0",) * 2,
+    "area/difference": ("0.0 0.0 area/difference 8.0 2.0 thickness 0.1",) * 2,
     "volume": ("0.0 0.0 volume 60.0 3.0",) * 2,
     "pressure": ("0.0 0.0 pressure 1.5",) * 2,
     "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 {GLOBAL}", f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
