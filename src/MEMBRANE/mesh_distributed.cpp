@@ -18,6 +18,7 @@
 #include "mesh_distributed.h"
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
