@@ -213,8 +213,8 @@ void HelfrichModel::check_membrane(int m)
       if (!scene.mesh->is_closed_membrane(m))
         error->all(FLERR,
                    "Membrane {} continues through the periodic box and encloses no volume: remove "
-                   "{} from pair_coeff {} {}",
-                   molecule, term->keyword, t, t);
+                   "volume and pressure from pair_coeff {} {}",
+                   molecule, t, t);
     }
 }
 
