@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 LocalMesh::LocalMesh(LAMMPS *lmp, std::string user) :
-    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1)
+    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1), inits(0)
 {
 }
 
@@ -39,6 +39,7 @@ void LocalMesh::init()
   mesh->update();
   generation = mesh->generation();
   epoch = -1;
+  ++inits;
 }
 
 MeshChange LocalMesh::follow()

@@ -18,6 +18,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace LAMMPS_NS {
 
@@ -51,6 +52,9 @@ class LocalMesh : protected Pointers {
       init(). Stops if atoms were replaced since init(), as a compute asked between runs finds. */
   MeshChange follow();
 
+  /// Differs whenever init() of this, or update() of the mesh by another style, was called.
+  std::pair<bigint, bigint> stamp() const { return {inits, mesh->updates()}; }
+
   DistributedMesh *operator->() const { return mesh.get(); }
   DistributedMesh &operator*() const { return *mesh; }
 
@@ -58,7 +62,7 @@ class LocalMesh : protected Pointers {
   std::string user;
   std::shared_ptr<DistributedMesh> mesh;
   int generation;
-  bigint epoch;
+  bigint epoch, inits;
 };
 
 }    // namespace LAMMPS_NS

@@ -56,7 +56,7 @@ class MeshTotals : protected Pointers {
 
  private:
   const LocalMesh &mesh;
-  bigint seen_update = -1;
+  std::pair<bigint, bigint> seen{-1, -1};    // stamp of the mesh that parts are for
   std::vector<Total> parts, wholes;
 
   void place_centres();
