@@ -256,10 +256,10 @@ void HelfrichModel::act()
   for (const FaceGroup &group : scene.groups)
     for (int s = 0; s < group.nslots(); ++s) {
       const int slot = group.first_slot + s;
-      const Conjugates &whole = scene.conjugates[scene.membrane(group, s)];
-      scene.model.tension[slot] = whole.tension;
-      scene.model.pressure[slot] = whole.pressure;
-      scene.model.moment[slot] = whole.moment;
+      const Conjugates &total = scene.conjugates[scene.membrane(group, s)];
+      scene.model.tension[slot] = total.tension;
+      scene.model.pressure[slot] = total.pressure;
+      scene.model.moment[slot] = total.moment;
     }
   for (HelfrichTerm *term : present) term->act_on_faces(scene);
 }

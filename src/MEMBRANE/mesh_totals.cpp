@@ -115,12 +115,12 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
     }
   MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
 
-  wholes.assign(mesh->molecules().size(), Total());
+  sums.assign(mesh->molecules().size(), Total());
   std::vector<std::array<double, 3>> shift(n);
   for (int c = 0; c < n; ++c) {
     const double *sum = &all[c * WIDTH];
     Total &total = parts[c];
-    Total &membrane = wholes[mesh->membrane(c)];
+    Total &membrane = sums[mesh->membrane(c)];
     total.area = sum[0];
     total.curvature = sum[8];
     membrane.area += total.area;

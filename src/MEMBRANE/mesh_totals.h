@@ -28,7 +28,7 @@ namespace LAMMPS_NS {
     the centre keeps V, and so total momentum, exactly independent of where the membrane is. */
 class MeshTotals : protected Pointers {
  public:
-  /// Sums over a connected component of the mesh, or what they give for a membrane.
+  /// Sums over a connected component of the mesh, or over those of a membrane.
   struct Total {
     double area = 0.0, volume = 0.0;
     double curvature = 0.0;                     ///< integral of 2H
@@ -49,7 +49,7 @@ class MeshTotals : protected Pointers {
   void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
                Membrane_NS::FaceIntegrals &, const Wanted &);
   const std::vector<Total> &components() const { return parts; }
-  const std::vector<Total> &membranes() const { return wholes; }
+  const std::vector<Total> &membranes() const { return sums; }
 
   /// The connected component of the face in a slot of a group.
   int component_of(const Membrane_NS::FaceGroup &, int slot) const;
@@ -57,7 +57,7 @@ class MeshTotals : protected Pointers {
  private:
   const LocalMesh &mesh;
   std::pair<bigint, bigint> seen{-1, -1};    // stamp of the mesh that parts are for
-  std::vector<Total> parts, wholes;
+  std::vector<Total> parts, sums;
 
   void place_centres();
   void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;

@@ -65,16 +65,16 @@ std::vector<tagint> MeshUnwrapped::gather_points()
   const std::vector<Located> all = gather_all(mine, world);
 
   const int n = mesh.topology().num_vertices();
-  whole.assign(3 * (size_t) n, NAN);
+  coordinates.assign(3 * (size_t) n, NAN);
   std::vector<tagint> molecule(n, 0);
   for (const Located &point : all) {
     const int v = mesh.vertex(point.tag);
     molecule[v] = point.molecule;
-    for (int k = 0; k < 3; ++k) whole[3 * (size_t) v + k] = point.x[k];
+    for (int k = 0; k < 3; ++k) coordinates[3 * (size_t) v + k] = point.x[k];
   }
   for (int v = 0; v < n; ++v)
     for (int k = 0; k < 3; ++k)
-      if (!std::isfinite(whole[3 * (size_t) v + k])) {
+      if (!std::isfinite(coordinates[3 * (size_t) v + k])) {
         if ((bigint) all.size() < n) mesh.report_missing_atoms();
         error->all(FLERR, "Control point {} has a coordinate that is not a finite number",
                    mesh.tag(v));
@@ -105,8 +105,8 @@ void MeshUnwrapped::walk(const std::vector<tagint> &molecule)
                      "Membrane mesh: {} joins membranes {} and {}; control points of one connected "
                      "surface must have one molecule ID: use set ... mol",
                      mesh.face_name(topology.faces_around(v)[i]), molecule[v], molecule[w]);
-        const double *from = &whole[3 * (size_t) v];
-        double *to = &whole[3 * (size_t) w];
+        const double *from = &coordinates[3 * (size_t) v];
+        double *to = &coordinates[3 * (size_t) w];
         double d[3];
         for (int k = 0; k < 3; ++k) d[k] = to[k] - from[k];
         const auto moved = nearest_image(*domain, d);
@@ -133,7 +133,7 @@ void MeshUnwrapped::check_edges() const
     for (int v = 0; v < topology.num_vertices(); ++v)
       for (int w : topology.ring(v)) {
         double d[3];
-        for (int j = 0; j < 3; ++j) d[j] = whole[3 * (size_t) w + j] - whole[3 * (size_t) v + j];
+        for (int j = 0; j < 3; ++j) d[j] = coordinates[3 * (size_t) w + j] - coordinates[3 * (size_t) v + j];
         nearest_image(*domain, d);
         if (std::fabs(in_box_lengths(*domain, d)[k]) > HALF)
           error->all(FLERR,
@@ -154,7 +154,7 @@ void MeshUnwrapped::correct_images()
     if (v < 0 || !closed[mesh.topology().component(v)]) continue;
     double now[3], d[3];
     domain->unmap(atom->x[i], atom->image[i], now);
-    for (int k = 0; k < 3; ++k) d[k] = now[k] - whole[3 * (size_t) v + k];
+    for (int k = 0; k < 3; ++k) d[k] = now[k] - coordinates[3 * (size_t) v + k];
     const auto moved = nearest_image(*domain, d);
     if (!(moved[0] || moved[1] || moved[2])) continue;
     const imageint old = atom->image[i];
@@ -183,7 +183,7 @@ bool MeshUnwrapped::has_moved() const
     if (v < 0) continue;
     double d[3];
     domain->unmap(atom->x[i], atom->image[i], d);
-    for (int k = 0; k < 3; ++k) d[k] -= whole[3 * (size_t) v + k];
+    for (int k = 0; k < 3; ++k) d[k] -= coordinates[3 * (size_t) v + k];
     const auto images = nearest_image(*domain, d);
     mine = !(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= tiny) ||
         (closed[mesh.topology().component(v)] && (images[0] || images[1] || images[2]));
@@ -205,7 +205,7 @@ double MeshUnwrapped::reach() const
       for (int v : stencil) {
         double d[3];
         for (int k = 0; k < 3; ++k)
-          d[k] = whole[3 * (size_t) v + k] - whole[3 * (size_t) corner + k];
+          d[k] = coordinates[3 * (size_t) v + k] - coordinates[3 * (size_t) corner + k];
         nearest_image(*domain, d);
         most = MAX(most, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
       }
@@ -215,5 +215,5 @@ double MeshUnwrapped::reach() const
 
 double MeshUnwrapped::memory_usage() const
 {
-  return sizeof(double) * whole.capacity() + closed.capacity();
+  return sizeof(double) * coordinates.capacity() + closed.capacity();
 }

@@ -37,7 +37,7 @@ class MeshUnwrapped : protected Pointers {
   bool has_moved() const;
 
   /// [vertices][3]
-  const std::vector<double> &points() const { return whole; }
+  const std::vector<double> &points() const { return coordinates; }
   bool is_closed(int component) const { return closed[component]; }
   double longest_edge() const { return edge_max; }
   /// From a corner of a face to the furthest point that shapes the face.
@@ -46,7 +46,7 @@ class MeshUnwrapped : protected Pointers {
 
  private:
   const MeshFaces &mesh;
-  std::vector<double> whole;
+  std::vector<double> coordinates;
   std::vector<char> closed;
   double edge_max = 0.0;
 
