@@ -358,12 +358,6 @@ void DumpMembraneImage::read_vertices(Scene &scene) const
   }
 }
 
-static Membrane_NS::Valences valences(const Topology &topology, int f)
-{
-  const Face &face = topology.face(f);
-  return {topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])};
-}
-
 double DumpMembraneImage::value(const LimitPoint &point) const
 {
   return coloring == Coloring::GAUSSIAN_CURVATURE ? point.gaussian_curvature : point.mean_curvature;
@@ -385,7 +379,7 @@ void DumpMembraneImage::choose_range(Scene &scene)
     double mine[3] = {0.0, 0.0, 0.0}, all[3];    // area, and integrals of the value and its square
     for (int f : scene.faces) {
       stencil_points(mesh.topology(), scene.control, f, stencil);
-      coarse.evaluate(valences(mesh.topology(), f), stencil, scene.points);
+      coarse.evaluate(mesh.topology().valences(f), stencil, scene.points);
       for (const Face &t : coarse.triangles()) {
         const LimitPoint &a = scene.points[t[0]], &b = scene.points[t[1]], &c = scene.points[t[2]];
         const double area = 0.5 * (b.position - a.position).cross(c.position - a.position).norm();
@@ -457,7 +451,7 @@ void DumpMembraneImage::draw_surface()
   std::vector<Corner> corners;
   for (int f : scene.faces) {
     stencil_points(mesh.topology(), control, f, stencil);
-    tessellation->evaluate(valences(mesh.topology(), f), stencil, scene.points);
+    tessellation->evaluate(mesh.topology().valences(f), stencil, scene.points);
     corners.clear();
     for (const LimitPoint &point : scene.points)
       corners.push_back(

@@ -26,8 +26,7 @@
 
 using namespace Membrane_NS;
 
-// beyond, graded rules have thousands of points and their derivative rows overflow
-static constexpr int MOST_VALENCE = 32;
+// beyond MOST_VALENCE graded rules have thousands of points and their derivative rows overflow
 static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of one face
 
 /* ----------------------------------------------------------------------
@@ -64,9 +63,7 @@ std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchR
   };
   std::map<Valences, std::vector<Member>> members;
   for (int f : faces) {
-    const Face &face = topology.face(f);
-    const Valences n = {topology.valence(face[0]), topology.valence(face[1]),
-                        topology.valence(face[2])};
+    const Valences n = topology.valences(f);
     auto rank = [](const Valences &v) {
       Valences r;
       for (int k = 0; k < 3; ++k) r[k] = v[k] == 6 ? 0 : v[k];

@@ -345,12 +345,11 @@ void MassOperator::build_rows(const Topology &topology, const std::vector<double
     }
     if (noise.owned.empty() && !settings_.direct) continue;
 
-    Valences valences;
+    const Valences valences = topology.valences(f);
     double mass = 0.0;
     noise.label = 0;
     for (int k = 0; k < 3; ++k) {
       const int v = topology.face(f)[k];
-      valences[k] = topology.valence(v);
       mass += masses[v] / valences[k];
       noise.label = noise.label * 0x9E3779B97F4A7C15ULL + labels[v];
     }

@@ -272,8 +272,7 @@ void SurfaceMotion::make_surface(const TriangleMesh &whole)
     for (int k = 0; k < 3; ++k) length += whole.edge(face[k], face[(k + 1) % 3]).norm();
     num_edges += 3;
     Membrane_NS::stencil_points(topology, whole, f, stencil);
-    cut.evaluate({topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])},
-                 stencil, points);
+    cut.evaluate(topology.valences(f), stencil, points);
     for (size_t t = 0; t < cut.triangles().size(); ++t) {
       const auto &corners = cut.triangles()[t];
       const auto &triangle =
