@@ -7,14 +7,6 @@
     finish()
 
 Each claim is printed on a line of its own; finish() ends the test, failed if a claim was.
-
-A long script has parts, which ctest runs side by side. It names them once, for CMake, and asks:
-
-    # parts: plane sphere
-    if part("plane"):
-        ...
-
-With the name of a part as argument a script makes the claims of this part alone, without argument all.
 """
 
 import os
@@ -42,14 +34,9 @@ def claim(text, holds, measured=""):
     return holds
 
 
-def part(name):
-    """Whether to make the claims of this part of the script."""
-    return sys.argv[1:] in ([], [name])
-
-
 def finish():
     if not _made:
-        print("FAILED no claim was made", *sys.argv[1:])
+        print("FAILED no claim was made")
     sys.exit(0 if _made and not _failed else 1)
 
 
