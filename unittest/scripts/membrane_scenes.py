@@ -20,6 +20,14 @@ def write_off(path, points, faces):
             file.write("3 %d %d %d\n" % tuple(face))
 
 
+def read_off(path):
+    """Points and faces."""
+    words = [line.split() for line in open(path) if line.strip() and not line.startswith("#")][1:]
+    n, m = int(words[0][0]), int(words[0][1])
+    return ([[float(x) for x in row[:3]] for row in words[1:n + 1]],
+            [[int(i) for i in row[1:4]] for row in words[n + 1:n + m + 1]])
+
+
 def bipyramid(n):
     """Two poles of valence n over an equator of n points of valence 4."""
     points = [(math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), 0.0) for i in range(n)]
