@@ -33,13 +33,16 @@ void LocalMesh::require() const
   DistributedMesh::of(lmp, user);
 }
 
-void LocalMesh::init()
+MeshChange LocalMesh::init()
 {
+  const auto before = mesh;
   mesh = DistributedMesh::shared(lmp, user);
   mesh->update();
+  const bool same = mesh == before && generation == mesh->generation();
   generation = mesh->generation();
   epoch = -1;
   ++inits;
+  return same ? MeshChange::NUMBERS : MeshChange::TOPOLOGY;
 }
 
 MeshChange LocalMesh::follow()

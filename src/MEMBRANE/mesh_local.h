@@ -45,9 +45,10 @@ class LocalMesh : protected Pointers {
   /// Stops if the atom style has no mesh: for constructors of styles that are made after it.
   void require() const;
 
-  /// Collective; call from init(). Takes hold of the mesh of the present atom style and brings it up to
-  /// date. The next follow() reports NUMBERS at least.
-  void init();
+  /** Collective; call from init(). Takes hold of the mesh of the present atom style and brings it up
+      to date: TOPOLOGY if it is another than this held, or its faces are, else NUMBERS. The next
+      follow() reports NUMBERS at least. */
+  MeshChange init();
   /** Collective; call in each step before the mesh is used. What has changed since the last call or
       init(). Stops if atoms were replaced since init(), as a compute asked between runs finds. */
   MeshChange follow();

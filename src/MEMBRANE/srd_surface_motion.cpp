@@ -38,6 +38,7 @@ using namespace LAMMPS_NS;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Membrane_NS::CollisionEvents;
+using Membrane_NS::LimitMask;
 using Membrane_NS::MassKind;
 using Membrane_NS::SurfaceCorners;
 using Membrane_NS::SurfaceVertex;
@@ -55,17 +56,14 @@ static constexpr bigint MOST_DIRECT = 10000;
 
 SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, std::string user) :
     Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
-    level(level), mass(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false),
+    level(level), points(lmp, igroup, this->user), mean_edge(0.0), any_fixed(false),
     remapped(false), shared_epoch(-1), whole(0.0), ahead(0.0)
 {
-  mass.settings.kind = MassKind::VERTEX;
-  mass.settings.tolerance = TOLERANCE;
 }
 
 void SurfaceMotion::init()
 {
-  mass.init();
-  mass.settings.direct = comm->nprocs == 1 && mass.count() <= MOST_DIRECT;
+  points.init();
   shared_epoch = -1;
   check_movers();
   find_box_movers();
@@ -180,7 +178,7 @@ void SurfaceMotion::find_masses()
 
 void SurfaceMotion::setup()
 {
-  mass.refresh();
+  follow_points();
   const auto &topology = mesh().topology();
   const int n = topology.num_vertices();
   const auto whole = mesh().triangle_mesh();
@@ -347,13 +345,22 @@ std::array<bool, 3> SurfaceMotion::periodic() const
    after reneighbouring: who owns what
 ------------------------------------------------------------------------- */
 
+void SurfaceMotion::follow_points()
+{
+  constexpr int RINGS = 1;
+  if (!points.follow(RINGS)) return;
+  const bool direct = comm->nprocs == 1 && points.count() <= MOST_DIRECT;
+  mask = std::make_unique<LimitMask>(mesh().topology(), part(),
+                                     LimitMask::Solver{direct, TOLERANCE});
+}
+
 void SurfaceMotion::refresh()
 {
-  mass.refresh();
+  follow_points();
   if (shared_epoch == epoch()) return;
   shared_epoch = epoch();
 
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   atom_vertex.assign(atom->nlocal, -1);
   for (int i = 0; i < part.owned; ++i) atom_vertex[part.atom_of(i)] = i;
 
@@ -374,8 +381,8 @@ void SurfaceMotion::refresh()
 void SurfaceMotion::remember()
 {
   if (!any_fixed) return;
-  mass.refresh();
-  mass.part().load(atom->x, remembered);
+  follow_points();
+  points.part().load(atom->x, remembered);
   remembered_box = lattice();
   remembered_corner = Vector3d::Map(domain->boxlo);
 }
@@ -384,7 +391,7 @@ void SurfaceMotion::remember()
 
 void SurfaceMotion::load_positions()
 {
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   q.resize(part.size());
   r.resize(part.size());
   const Matrix3d box = lattice();
@@ -395,12 +402,12 @@ void SurfaceMotion::load_positions()
     x += box * Vector3d(offset[v][0], offset[v][1], offset[v][2]);
     q[i] = {{x[0], x[1], x[2], 0.0}};
   }
-  mass.matrix().apply_mask(q, r);
+  mask->apply(q, r);
   for (int i = 0; i < part.owned; ++i) {
     const auto &seam = ring_seam[part.vertices[i]];
     if (!seam[0] && !seam[1] && !seam[2]) continue;
     const Vector3d shift = box * Vector3d(seam[0], seam[1], seam[2]);
-    for (int k = 0; k < 3; ++k) r[i].c[k] += mass.matrix().mask_spoke(i) * shift[k];
+    for (int k = 0; k < 3; ++k) r[i].c[k] += mask->spoke(i) * shift[k];
   }
 }
 
@@ -408,7 +415,7 @@ void SurfaceMotion::load_positions()
 
 void SurfaceMotion::load_displacements()
 {
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   moved.assign(part.size(), Vector4{});
   const Matrix3d box = lattice(), to_fraction = box.inverse();
   const Vector3d corner = Vector3d::Map(domain->boxlo);
@@ -434,7 +441,7 @@ void SurfaceMotion::load_displacements()
 
 void SurfaceMotion::load_accelerations()
 {
-  moved.assign(mass.part().size(), Vector4{});
+  moved.assign(points.part().size(), Vector4{});
   for (FixHDBase *integrator : integrators) {
     const MeshPart &theirs = integrator->part();
     for (int i = 0; i < theirs.owned; ++i) {
@@ -475,10 +482,10 @@ void SurfaceMotion::begin_step(double dt)
     for (int k = 0; k < 3; ++k) moved[i].c[k] /= dt;
   drift = moved;
   velocity.resize(part().size());
-  matrix().apply_mask(moved, velocity);
+  mask->apply(moved, velocity);
   load_accelerations();
   acceleration.resize(part().size());
-  matrix().apply_mask(moved, acceleration);
+  mask->apply(moved, acceleration);
   whole = ahead = dt;
 }
 
@@ -507,7 +514,7 @@ const std::vector<SurfaceVertex> &SurfaceMotion::places()
 {
   refresh();
   load_positions();
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   mine.resize(3 * part.owned);
   for (int i = 0; i < part.owned; ++i)
     for (int k = 0; k < 3; ++k) mine[3 * i + k] = r[i].c[k];
@@ -547,7 +554,7 @@ void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
   velocity_now.resize(part().size());
   for (int i = 0; i < part().owned; ++i)    // whatever velocities the atoms have that nothing moves
     if (!is_free(part().vertices[i])) moved[i] = drift[i];
-  matrix().apply_mask(moved, velocity_now);
+  mask->apply(moved, velocity_now);
 }
 
 /* ----------------------------------------------------------------------
@@ -561,7 +568,7 @@ void SurfaceMotion::apply(const VertexField &change)
   q.resize(part().size());
   for (int i = 0; i < part().owned; ++i)
     if (!is_free(part().vertices[i])) q[i] = {};
-  matrix().solve_mask(q, r);
+  mask->solve(q, r);
   change_velocities();
 }
 
@@ -574,7 +581,7 @@ void SurfaceMotion::apply(const std::vector<CollisionEvents::Change> &changes)
     q[i] = {{change.velocity[0], change.velocity[1], change.velocity[2], 0.0}};
     moved[i] = {{change.position[0], change.position[1], change.position[2], 0.0}};
   }
-  matrix().solve_mask(q, moved, r, detour);
+  mask->solve(q, moved, r, detour);
   change_velocities();
   for (int i = 0; i < part().owned; ++i)
     if (is_free(part().vertices[i]))
@@ -598,7 +605,7 @@ void SurfaceMotion::change_velocities()
 
 double SurfaceMotion::memory_usage() const
 {
-  return mass.memory_usage() + sizeof(SurfaceVertex) * vertices.capacity() +
+  return (mask ? mask->memory_usage() : 0.0) + sizeof(SurfaceVertex) * vertices.capacity() +
       sizeof(double) * (mine.capacity() + all.capacity() + masses.capacity()) +
       sizeof(int) * (listed.capacity() + owner_of.capacity() + atom_vertex.capacity() +
                      6 * offset.capacity()) +

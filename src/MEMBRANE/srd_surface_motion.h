@@ -14,11 +14,11 @@
 #ifndef LMP_SRD_SURFACE_MOTION_H
 #define LMP_SRD_SURFACE_MOTION_H
 
-#include "mesh_distributed.h"
-#include "hd_mass.h"
+#include "membrane_limit_mask.h"
 #include "membrane_srd_events.h"
 #include "membrane_srd_surface_grid.h"
 #include "membrane_srd_corners.h"
+#include "mesh_group.h"
 
 #include <array>
 #include <memory>
@@ -59,7 +59,7 @@ class SurfaceMotion : protected Pointers {
   int component(int face) const { return face_component[face]; }
   /// Components of the group.
   const std::vector<int> &components() const { return group_components; }
-  DistributedMesh &mesh() { return mass.mesh(); }
+  DistributedMesh &mesh() { return points.mesh(); }
   /// Mean length of an edge of the mesh at setup().
   double edge() const { return mean_edge; }
   /// And of the surface.
@@ -89,7 +89,7 @@ class SurfaceMotion : protected Pointers {
   /// The rank that owns a mass, as of the last paths() or places().
   int owner(int vertex) const { return owner_of[vertex]; }
   /// Changes when vertices have new owners.
-  bigint epoch() { return mass.mesh().epoch(); }
+  bigint epoch() { return mesh().epoch(); }
   /// Collective: limit positions and velocities of the owned vertices, in the order of part().
   void masses_now(Membrane_NS::VertexField &position, Membrane_NS::VertexField &velocity);
   /// Collective: changes of the masses' velocities now, in the order of part(), reach the control
@@ -99,8 +99,7 @@ class SurfaceMotion : protected Pointers {
   void apply(const std::vector<Membrane_NS::CollisionEvents::Change> &changes);
 
   /// Owned vertices in the order of their atoms.
-  MeshPart &part() { return mass.part(); }
-  Membrane_NS::MassOperator &matrix() { return mass.matrix(); }
+  MeshPart &part() { return points.part(); }
   double mass_of(int mass) const { return masses[mass]; }
   const std::vector<double> &all_inverse_masses() const { return inverse_masses; }
   bool is_free(int mass) const { return inverse_masses[mass] > 0.0; }
@@ -109,7 +108,8 @@ class SurfaceMotion : protected Pointers {
  private:
   std::string user;
   int igroup, groupbit, level;
-  HDMass mass;
+  MeshGroup points;
+  std::unique_ptr<Membrane_NS::LimitMask> mask;
   std::unique_ptr<Membrane_NS::SurfaceCorners> finer;
   std::vector<Membrane_NS::Face> finer_faces;    // what it was made for
   Membrane_NS::SurfaceCorners::Seams finer_seams;
@@ -143,6 +143,7 @@ class SurfaceMotion : protected Pointers {
   bool images_move() const;
   void find_components();
   void find_masses();
+  void follow_points();
   void refresh();
   void load_positions();
   void load_displacements();
