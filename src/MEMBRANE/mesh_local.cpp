@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 LocalMesh::LocalMesh(LAMMPS *lmp, std::string user) :
-    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1)
+    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1), earlier_updates(0)
 {
 }
 
@@ -37,6 +37,7 @@ MeshChange LocalMesh::init()
 {
   const auto before = mesh;
   mesh = DistributedMesh::shared(lmp, user);
+  if (before && before != mesh) earlier_updates += before->updates();
   mesh->update();
   const bool same = mesh == before && generation == mesh->generation();
   generation = mesh->generation();

@@ -52,6 +52,9 @@ class LocalMesh : protected Pointers {
       init(). Stops if atoms were replaced since init(), as a compute asked between runs finds. */
   MeshChange follow();
 
+  /// Differs after an update() of the mesh, and for another mesh.
+  bigint updates() const { return earlier_updates + mesh->updates(); }
+
   DistributedMesh *operator->() const { return mesh.get(); }
   DistributedMesh &operator*() const { return *mesh; }
 
@@ -59,7 +62,7 @@ class LocalMesh : protected Pointers {
   std::string user;
   std::shared_ptr<DistributedMesh> mesh;
   int generation;
-  bigint epoch;
+  bigint epoch, earlier_updates;    // of meshes before this
 };
 
 }    // namespace LAMMPS_NS

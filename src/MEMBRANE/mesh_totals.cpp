@@ -41,7 +41,7 @@ MeshTotals::MeshTotals(LAMMPS *lmp, const LocalMesh &mesh) : Pointers(lmp), mesh
 
 void MeshTotals::place_centres()
 {
-  seen_update = mesh->updates();
+  seen_update = mesh.updates();
   const auto &topology = mesh->topology();
   parts.assign(topology.num_components(), Total());
   for (int v = 0; v < topology.num_vertices(); ++v) {
@@ -82,7 +82,7 @@ void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &
 void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
                          FaceIntegrals &integrals, bool with_volume)
 {
-  if (seen_update != mesh->updates()) place_centres();
+  if (seen_update != mesh.updates()) place_centres();
   const int nslots = count_slots(groups);
   integrals.area.resize(nslots);
   integrals.volume.resize(with_volume ? nslots : 0);
