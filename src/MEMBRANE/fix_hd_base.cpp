@@ -55,8 +55,7 @@ static constexpr int FACES_EVERY = 10;
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
     moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0),
-    watching(false),
-    faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
+    watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
   vector_flag = global_freq = 1;
@@ -100,10 +99,11 @@ void FixHDBase::check_other_integrators()
       if (atom->mask[i] & groupbit && atom->mask[i] & other->groupbit) mine = 1;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
     if (any)
-      error->all(FLERR,
-                 "Control points of fix {} are also moved by fix {} ({}): use groups without common "
-                 "atoms",
-                 id, other->id, other->style);
+      error->all(
+          FLERR,
+          "Control points of fix {} are also moved by fix {} ({}): use groups without common "
+          "atoms",
+          id, other->id, other->style);
   }
 }
 
@@ -268,9 +268,8 @@ void FixHDBase::report_runaway(tagint id_of_point)
     reason =
         fmt::format("timestep {} is beyond the stability limit of about {:.3g}", update->dt, limit);
   else if (limit > 0.0)
-    reason +=
-        fmt::format(", though the stability limit was about {:.3g} when the run began{}", limit,
-                    shape_lost_at(id_of_point));
+    reason += fmt::format(", though the stability limit was about {:.3g} when the run began{}",
+                          limit, shape_lost_at(id_of_point));
   error->one(FLERR,
              "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
              "hd_timestep finds the limit precisely",
@@ -298,9 +297,10 @@ std::string FixHDBase::shape_lost_at(tagint id_of_point)
     longest = MAX(longest, square);
   }
   if (!(longest > SHORT_EDGE * SHORT_EDGE * shortest)) return "";
-  return fmt::format(", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
-                     "{:.3g}; keep it with regularize in pair_coeff",
-                     std::sqrt(shortest), std::sqrt(longest));
+  return fmt::format(
+      ", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
+      "{:.3g}; keep it with regularize in pair_coeff",
+      std::sqrt(shortest), std::sqrt(longest));
 }
 
 double FixHDBase::memory_usage()

@@ -23,9 +23,9 @@
 
 namespace LAMMPS_NS {
 
-/** What all integrators of control points share: the mass matrix, the checks, and the moves that they
-    are put together from. Nothing but these moves changes x and v of control points, so what restricts
-    or extends the motion (modes, bound particles) has its place in them and in the mass matrix. */
+/** What all integrators of control points share: the mass matrix, the checks, and the moves that
+    they are put together from. Integrators change x and v of control points by these alone, so
+    what restricts the motion or adds to it has its place in them and in the mass matrix. */
 class FixHDBase : public Fix {
  public:
   FixHDBase(class LAMMPS *, int, char **);
@@ -57,19 +57,19 @@ class FixHDBase : public Fix {
  protected:
   HDMass mass;
 
-  // === Moves. M is constant, so p += step f is v += step M^-1 f; random numbers are those of this step
+  // === Moves of the momenta p = M v and of x. Random numbers are those of the present step
 
-  /// Take the atoms' forces f for what follows.
+  /// Take the atoms' forces f for what follows: acceleration = M^-1 f.
   void accelerate();
-  /// p += step f
+  /// p += step f, which with constant M is v += step M^-1 f
   void kick(double step);
   /// x += step v; stops if a control point runs away
   void drift(double step);
-  /// p = keep p + noise: an exact step of friction and noise. One number, or one per owned vertex if
-  /// the mass has friction per vertex.
+  /// p = keep p + noise: an exact step of friction and noise, with one number or, if the mass has
+  /// friction per vertex, one per owned vertex.
   void relax(double keep, double kT, bigint seed);
   void relax(const std::vector<double> &keep, double kT, bigint seed);
-  /// p = f + noise with M the drag matrix: the velocities of overdamped motion, with these random ones.
+  /// v = M^-1 f + random1 + random2, where M is a drag matrix: forces and drag balance.
   void balance(const Membrane_NS::VertexField &random1, const Membrane_NS::VertexField &random2);
 
  private:
@@ -78,7 +78,7 @@ class FixHDBase : public Fix {
   bigint moved_step;    // of which step `moved` is
   int passes;           // of the last accelerate()
   bool remembers, check, limit_due;
-  double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
+  double limit;    // of stability for the timestep, when a run last began; 0 if not known
   bool watching;
   std::unique_ptr<class FaceWatch> faces;
 

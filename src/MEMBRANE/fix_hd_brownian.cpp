@@ -31,8 +31,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
-    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1),
-    numbering(-1)
+    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1), numbering(-1)
 {
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
   temperature = utils::numeric(FLERR, arg[3], false, lmp);

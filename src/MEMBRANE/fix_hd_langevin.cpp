@@ -45,7 +45,8 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
   damp = utils::numeric(FLERR, arg[5], false, lmp);
   seed = utils::bnumeric(FLERR, arg[6], false, lmp);
   if (t_start < 0.0 || t_stop < 0.0)
-    error->all(FLERR, "Fix hd/langevin temperatures {} and {} must not be negative", arg[3], arg[4]);
+    error->all(FLERR, "Fix hd/langevin temperatures {} and {} must not be negative", arg[3],
+               arg[4]);
   if (damp <= 0.0) error->all(FLERR, "Fix hd/langevin damping time {} must be positive", arg[5]);
   if (seed <= 0) error->all(FLERR, "Fix hd/langevin seed {} must be positive", arg[6]);
 

@@ -27,8 +27,8 @@
 
 using namespace LAMMPS_NS;
 
-// a face with less than this A/D is about to turn over, unless it began with little more: then it may
-// fall to a fraction of that
+// a face with less than this A/D is about to turn over, unless it began with little more: then it
+// may fall to a fraction of that
 static constexpr double LEAST_UPRIGHT = 1.0 / 50.0;
 static constexpr double LEAST_FRACTION = 0.25;
 

@@ -108,7 +108,7 @@ void HDMass::report_missed_tolerance()
   reported = true;
   if (comm->me == 0)
     error->warning(FLERR,
-                   "{}: mass {} was solved in {} passes to a residual of {:.2g} only, not tol {:.2g}: "
+                   "{}: mass {} was solved in {} passes to a residual of {:.2g} only, not {:.2g}: "
                    "use solver direct, a larger tol, or masses that differ less",
                    user, mass_kind_name(settings.kind), settings.most_passes,
                    mass->missed_residual(), settings.tolerance);

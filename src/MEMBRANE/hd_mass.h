@@ -33,7 +33,7 @@ class HDMass : protected Pointers {
   // === Settings, before init()
 
   Membrane_NS::MassOperator::Settings settings;
-  /// One of the keywords mass, solver, tol; returns how many words it took, 0 if it is another keyword.
+  /// One of the keywords mass, solver, tol: how many words it took; 0 if it is another keyword.
   int parse(int iarg, int narg, char **arg);
   /// Use this number for all vertices instead of the atoms' masses: a matrix of drag coefficients.
   void set_drag(double coefficient) { drag = coefficient; }
@@ -42,8 +42,8 @@ class HDMass : protected Pointers {
 
   // === Life cycle
 
-  /// Collective; call from init(). The group must hold all control points of its membranes and, unless
-  /// other_atoms, nothing else; masses must be positive.
+  /// Collective; call from init(). The group must hold all control points of its membranes and,
+  /// unless other_atoms, nothing else; masses must be positive.
   void init(bool other_atoms = false);
   /// Collective; call before using part() or matrix() in a time step.
   void refresh();

@@ -71,7 +71,8 @@ void MeshGroup::check_group(bool other_atoms)
       error->all(FLERR,
                  "{}: group {} has {} of the {} control points of membrane {}; a surface moves "
                  "as a whole: use a group of whole membranes (group ... molecule)",
-                 user, group->names[igroup], all[c], topology.num_vertices(c), surface->molecule(c));
+                 user, group->names[igroup], all[c], topology.num_vertices(c),
+                 surface->molecule(c));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -29,12 +29,12 @@ class MeshGroup : protected Pointers {
   /// `user` is named in errors. Stops if the atom style has no mesh.
   MeshGroup(class LAMMPS *, int igroup, std::string user);
 
-  /// Collective; call from init(). The group must hold all control points of its membranes and, unless
-  /// other_atoms, nothing else.
+  /// Collective; call from init(). The group must hold all control points of its membranes and,
+  /// unless other_atoms, nothing else.
   void init(bool other_atoms = false);
-  /** Collective; call in each step before part() is used. True if the part is a new one, and all that
-      depends on its numbers is to be made anew: after init(), and when vertices have new owners. Its
-      halo reaches `rings` edges. */
+  /** Collective; call in each step before part() is used. True if the part is a new one, and all
+      that depends on its numbers is to be made anew: after init(), and when vertices have new
+      owners. Its halo reaches `rings` edges. */
   bool follow(int rings);
 
   DistributedMesh &mesh() const { return *surface; }

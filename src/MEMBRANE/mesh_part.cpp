@@ -94,8 +94,9 @@ void MeshPart::find_halo(const DistributedMesh &mesh, int rings)
     halo.insert(halo.end(), beyond.begin(), beyond.end());
     front.swap(beyond);
   }
-  std::sort(halo.begin(), halo.end(),
-            [&owner](int a, int b) { return std::pair(owner[a], a) < std::pair(owner[b], b); });
+  std::sort(halo.begin(), halo.end(), [&owner](int a, int b) {
+    return std::pair(owner[a], a) < std::pair(owner[b], b);
+  });
   vertices.insert(vertices.end(), halo.begin(), halo.end());
 
   std::vector<int> wanted(nprocs, 0), asked(nprocs), wanted_start(nprocs + 1, 0),

@@ -27,10 +27,10 @@ namespace LAMMPS_NS {
 class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
  public:
   /// Collective. Of the control points in a group, which must be all points of its membranes; the
-  /// halo reaches `rings` edges beyond the owned ones. The mesh is up to date, here and below.
+  /// halo reaches `rings` edges beyond the owned ones. Here and below the mesh is up to date.
   MeshPart(class LAMMPS *, const class DistributedMesh &, int groupbit, int rings);
 
-  /** Collective; call when LAMMPS has reneighboured. Whether each rank still owns the same vertices,
+  /** Collective; call when LAMMPS has reneighboured. Whether each rank still owns its vertices,
       so that all numbers but those of atoms stay; if not, make a new part. */
   bool find_atoms_again(const class DistributedMesh &);
 

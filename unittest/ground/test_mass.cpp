@@ -166,7 +166,8 @@ TEST(MassOperator, SolvesToTheToleranceOnEveryMesh)
 TEST(MassOperator, DirectSolverAgreesWithTheIterativeOne)
 {
   for (MassKind kind : {MassKind::VERTEX, MassKind::CONSISTENT})
-    for (const TriangleMesh &mesh : {icosphere(2, 1.0), loop_refine(bipyramid(9)), icosphere(0, 1.0)}) {
+    for (const TriangleMesh &mesh :
+         {icosphere(2, 1.0), loop_refine(bipyramid(9)), icosphere(0, 1.0)}) {
       Body iterative(mesh, kind, false, 1e-12), direct(mesh, kind, true);
       const VertexField f = rough(direct.size());
       VertexField a(direct.size()), b(direct.size());
