@@ -8,9 +8,9 @@ from lammps_claims import claim
 BLOCKS, EVERY = 32, 10    # of a run; steps from sample to sample
 
 
-def block_length(steps):
+def block_length(steps, blocks=BLOCKS):
     """Steps of a block, a multiple of EVERY, for about so many steps in all."""
-    return steps // (BLOCKS * EVERY) * EVERY
+    return steps // (blocks * EVERY) * EVERY
 
 
 def averages(path):
