@@ -30,12 +30,13 @@ using Eigen::Vector3d;
 
 static constexpr int MOST_EVALUATIONS = 100;
 static constexpr double LONGEST_STEP = 0.5;         // of a face
-static constexpr double LEAST_CONVEX = 0.1;         // of the determinant of the metric
+static constexpr double LEAST_CONVEX = 1.0e-4;      // of the determinant of the metric
 static constexpr double ROUNDING = 1.0e-14;         // of squared distances
 static constexpr double PRECISE = 1.0e-10;          // of the mean edge
 static constexpr double LEAST_FRACTION = 1.0e-8;    // of a step
-static constexpr double NEAR_VERTEX = 0.25;       // shorter steps, to the distance, see a smooth surface
-static constexpr double FAN_RADIUS = 0.5;           // all within is on the faces around the vertex
+static constexpr double NEAR_VERTEX =
+    0.25;                                    // shorter steps, to the distance, see a smooth surface
+static constexpr double FAN_RADIUS = 0.5;    // all within is on the faces around the vertex
 
 namespace {
 
@@ -193,12 +194,13 @@ ClosestPoint Descent::run(double tolerance)
     const SurfacePoint from = point_;
     const Vector3d from_offset = to_surface_;
     const double distance2 = to_surface_.squaredNorm();
+    const double noise = ROUNDING * (jet_.position().norm() + x_.norm()) * to_surface_.norm();
     bool closer = false;
     for (double fraction = 1.0; fraction > LEAST_FRACTION && !closer; fraction *= 0.5) {
       point_ = move.to(fraction);
       to_surface_ = from_offset;
       evaluate();
-      closer = to_surface_.squaredNorm() <= distance2 * (1.0 + ROUNDING);
+      closer = to_surface_.squaredNorm() <= distance2 + noise;
     }
     if (closer) continue;
     point_ = from;

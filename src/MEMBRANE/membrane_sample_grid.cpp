@@ -71,6 +71,11 @@ const std::vector<Part> &parts_of_face()
 
 SampleGrid::SampleGrid(const LimitSurface &surface) : surface_(surface)
 {
+  for (int f = 0; f < surface.topology().num_faces(); ++f) {
+    bool steep = false;
+    for (int n : surface.topology().valences(f)) steep = steep || n == 3 || n > 6;
+    steep_.push_back(steep);
+  }
   update();
 }
 
@@ -235,6 +240,7 @@ class SampleGrid::Collector {
 
   bool same_part(const Near &known, int face, const Vector3d &offset) const
   {
+    if (grid_.steep_[face] || grid_.steep_[known.point.face]) return face == known.point.face;
     const double far = 8.0 * grid_.radius_;    // else another image
     if ((known.offset - offset).squaredNorm() > far * far) return false;
     const Face &a = grid_.surface_.topology().face(known.point.face);

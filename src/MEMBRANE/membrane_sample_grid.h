@@ -38,12 +38,14 @@ class SampleGrid {
         offset;    ///< from the place to the sample, in the image that was found near it
     double distance;
   };
-  static constexpr int MOST_NEAR = 8;
+  static constexpr int MOST_NEAR = 12;
   using Nearby = std::array<Near, MOST_NEAR>;
 
   /** The nearest sample to x; then, of other parts of the surface that may have a point closer than the
-      nearest sample, the nearest sample of each, nearest first. Samples are of one part if
-      their faces share a vertex. Returns how many; at most MOST_NEAR are kept. */
+      nearest sample, the nearest sample of each, nearest first. Samples are of one part if their faces
+      share a vertex; but faces at a vertex where the curvature has no bound (valence 3, 7 and more)
+      are parts of their own, since there the distance may have a minimum on each of them. Returns
+      how many; at most MOST_NEAR are kept. */
   int near(const Eigen::Vector3d &x, Nearby &nearby) const;
 
   /// No point of the surface is further from a sample.
@@ -63,6 +65,7 @@ class SampleGrid {
   std::array<int, 3> cells_ = {1, 1, 1};
   Eigen::Vector3d width_;    // of a cell, across
   double radius_ = 0.0;
+  std::vector<char> steep_;    // [faces] whether the curvature has no bound at some corner
 
   class Collector;
 

@@ -123,37 +123,66 @@ TEST(ClosestPoint, APlaceOffTheSurfaceAlongTheNormalHasItsFootWhereItCameFrom)
 
 TEST(ClosestPoint, NothingIsCloserThanWhatIsFound)
 {
-  auto meshes = rough_meshes();
   double worst = 0.0;
-  for (const TriangleMesh &mesh : meshes) {
+  for (const TriangleMesh &mesh : smooth_meshes()) {
     const Search scene(mesh);
-    if (scene.topology.num_faces() > 400) continue;
     const double edge = scene.surface.mean_edge();
     Random random(32);
-    for (int i = 0; i < how_many(20, 200); ++i) {
-      const Vector3d x =
-          scene.position(random_point(scene.topology, random)) + 0.5 * edge * random.vector();
+    for (int i = 0; i < how_many(10, 200); ++i) {
+      const Vector3d x = scene.position(random_point(scene.topology, random)) +
+          0.5 / std::sqrt(3.0) * edge * random.vector();
       const ClosestPoint found = scene.finder.find(x);
-      worst = std::max(worst, std::fabs(found.distance) - brute_force(scene, x));
+      EXPECT_TRUE(found.converged);
+      worst = std::max(worst, (std::fabs(found.distance) - brute_force(scene, x)) / edge);
     }
   }
   RecordProperty("worst", scientific(worst));
   EXPECT_LT(worst, 1e-9);
 }
 
+// on meshes that bend more than that there may be several feet, one of which is found: nearly always the
+// closest
+
+TEST(ClosestPoint, BeyondTheRadiusOfCurvatureAFootIsFoundAndMostlyTheClosest)
+{
+  int count = 0, further = 0;
+  double worst = 0.0;
+  for (const TriangleMesh &mesh : rough_meshes()) {
+    const Search scene(mesh);
+    if (scene.topology.num_faces() > 400) continue;
+    const double edge = scene.surface.mean_edge();
+    Random random(32);
+    for (int i = 0; i < how_many(20, 1000); ++i) {
+      const Vector3d x =
+          scene.position(random_point(scene.topology, random)) + 0.5 * edge * random.vector();
+      const double excess =
+          (std::fabs(scene.finder.find(x).distance) - brute_force(scene, x)) / edge;
+      ++count;
+      further += excess > 1e-9;
+      worst = std::max(worst, excess);
+    }
+  }
+  RecordProperty("places", std::to_string(count));
+  RecordProperty("further", std::to_string(further));
+  RecordProperty("worst", scientific(worst));
+  EXPECT_LE(further, 0.02 * count);
+  EXPECT_LT(worst, 0.2);
+}
+
 TEST(ClosestPoint, FromANeighbouringFaceItWalksToTheFoot)
 {
-  const SurfaceScene scene(interpolate(flipped(icosphere(3, 6.0), 150, 9, 1)));
+  const SurfaceScene scene(test_mesh("octasphere_2"));
+  const double edge = scene.surface.mean_edge();
   Random random(33);
   for (int i = 0; i < how_many(3000, 100000); ++i) {
     const SurfacePoint p = random_point(scene.topology, random);
     const SurfaceJet jet = scene.surface.evaluate<2>(p);
-    const Vector3d x = jet.position() + 0.3 * random.symmetric() * jet.normal();
+    const Vector3d x = jet.position() + 0.3 * edge * random.symmetric() * jet.normal();
     const SurfacePoint start =
         walk(scene.topology, p, {random.symmetric(), random.symmetric()}).end;
     const ClosestPoint found = closest_point(scene.surface, x, start);
     ASSERT_TRUE(found.converged);
-    EXPECT_LT((found.foot - jet.position()).norm(), 1e-8);
+    EXPECT_LT((found.foot - jet.position()).norm(), 1e-8 * edge);
   }
 }
 
