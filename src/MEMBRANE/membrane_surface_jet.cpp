@@ -17,6 +17,8 @@
 
 #include "membrane_surface_jet.h"
 
+#include <Eigen/Dense>
+
 using namespace Membrane_NS;
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
