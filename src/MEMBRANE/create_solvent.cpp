@@ -219,7 +219,7 @@ bigint CreateSolvent::add_atoms(bigint n)
   // 0: another rank's or on the wrong side, 1: on the right side but not wanted, 2: to be made
 
   const CounterRandom random(seed ^ POSITION_NUMBERS, 0);
-  std::vector<char> mine(BATCH), all(BATCH);
+  std::vector<int> mine(BATCH), all(BATCH);
   std::vector<std::array<double, 3>> places(BATCH);
   bigint counted = 0, added = 0;
   int empty = 0;
@@ -239,7 +239,7 @@ bigint CreateSolvent::add_atoms(bigint n)
         continue;
       mine[i] = is_wanted(x, fraction) ? 2 : 1;
     }
-    MPI_Allreduce(mine.data(), all.data(), BATCH, MPI_CHAR, MPI_MAX, world);
+    MPI_Allreduce(mine.data(), all.data(), BATCH, MPI_INT, MPI_MAX, world);
     const bigint before = counted;
     for (int i = 0; i < BATCH && counted < n; ++i) {
       counted += all[i] > 0;

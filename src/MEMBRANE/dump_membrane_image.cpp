@@ -18,12 +18,11 @@
 #include "dump_membrane_image.h"
 
 #include "atom.h"
-#include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "image.h"
 #include "memory.h"
+#include "mesh_box.h"
 #include "output.h"
 #include "platform.h"
 #include "region.h"
@@ -42,9 +41,6 @@ using Membrane_NS::Face;
 using Membrane_NS::FaceTessellation;
 using Membrane_NS::Fragment;
 using Membrane_NS::LimitPoint;
-using Membrane_NS::StencilPoints;
-using Membrane_NS::Topology;
-using Membrane_NS::TriangleMesh;
 
 static constexpr int SURFACE_MAP = 1;             // Image's map for grid cells, which are not drawn
 static constexpr double TRIANGLE_PIXELS = 4.0;    // side of a triangle; shading varies within it
@@ -86,9 +82,10 @@ DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, int narg, char **arg) :
 
 DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, std::vector<char *> args) :
     DumpImage(lmp, static_cast<int>(args.size()), args.data()), coloring(Coloring::MEAN_CURVATURE),
-    draw_points(false), draw_whole(true), own_map(false), auto_range(true), lo(0.0), hi(1.0),
-    range_told(false), subdivide(0), mesh(DistributedMesh::of(lmp, "Dump membrane/image"))
+    draw_points(false), in_one_piece(true), own_map(false), auto_range(true), lo(0.0), hi(1.0),
+    range_reported(false), subdivide(0), mesh(lmp, "Dump membrane/image")
 {
+  mesh.require();
   delete[] style;
   style = utils::strdup("membrane/image");
 
@@ -142,12 +139,12 @@ int DumpMembraneImage::modify_param(int narg, char **arg)
       coloring = Coloring::MOLECULE;
     else
       error->all(FLERR, "dump_modify surface {} is not one of H, K, type, molecule", what);
-    range_told = false;
+    range_reported = false;
     return 2;
   }
   if (key == "range") {
     need(1);
-    range_told = false;
+    range_reported = false;
     auto_range = strcmp(arg[1], "auto") == 0;
     if (auto_range) return 2;
     need(2);
@@ -176,7 +173,7 @@ int DumpMembraneImage::modify_param(int narg, char **arg)
   }
   if (key == "whole") {
     need(1);
-    draw_whole = utils::logical(FLERR, arg[1], false, lmp);
+    in_one_piece = utils::logical(FLERR, arg[1], false, lmp);
     return 2;
   }
   if (key == "smap") {
@@ -203,7 +200,7 @@ int DumpMembraneImage::count()
   int kept = 0;
   for (int k = 0; k < nchoose; ++k) {
     const int i = clist[k];
-    choose[i] = mesh.vertex(atom->tag[i]) < 0;
+    choose[i] = mesh->vertex(atom->tag[i]) < 0;
     if (choose[i]) clist[kept++] = i;
   }
   return nchoose = kept;
@@ -215,7 +212,7 @@ int DumpMembraneImage::count()
 
 void DumpMembraneImage::write()
 {
-  mesh.update();
+  mesh.init();
   openfile();
 
   box_bounds();
@@ -293,70 +290,7 @@ void DumpMembraneImage::set_camera()
   camera.pixel = 2.0 * longest / image->height / image->zoom;
 }
 
-/* ----------------------------------------------------------------------
-   what there is to draw
-------------------------------------------------------------------------- */
-
-struct DumpMembraneImage::Scene {
-  TriangleMesh control;
-  std::vector<int> type;                     // of each vertex; 0 if it is not in the group
-  std::vector<int> faces;                    // for this rank to draw
-  std::vector<std::array<bool, 3>> wraps;    // directions in which a component is cut at the box
-  std::vector<LimitPoint> points;
-};
-
-// closed components near the box, or cut at it, as everything that continues through it
-
-void DumpMembraneImage::place(Scene &scene) const
-{
-  const Topology &topology = mesh.topology();
-  TriangleMesh &control = scene.control;
-  control = mesh.triangle_mesh();
-  scene.wraps = continuing_directions(topology, control);
-  if (!control.is_periodic()) return;
-
-  std::vector<Vector3d> centre(topology.num_components(), Vector3d::Zero());
-  for (int v = 0; v < topology.num_vertices(); ++v) {
-    const int c = topology.component(v);
-    centre[c] += control.points[v] / topology.num_vertices(c);
-  }
-  const Eigen::Matrix3d inverse = control.lattice.inverse();
-  for (int c = 0; c < topology.num_components(); ++c) {
-    const Vector3d fraction = inverse * (centre[c] - Vector3d(domain->boxlo));
-    centre[c].setZero();
-    for (int k = 0; k < 3; ++k) {
-      if (!control.periodic[k] || scene.wraps[c][k]) continue;
-      if (draw_whole)
-        centre[c] -= std::floor(fraction[k]) * control.lattice.col(k);
-      else
-        scene.wraps[c][k] = true;
-    }
-  }
-  for (int v = 0; v < topology.num_vertices(); ++v)
-    control.points[v] += centre[topology.component(v)];
-}
-
-void DumpMembraneImage::read_vertices(Scene &scene) const
-{
-  const Topology &topology = mesh.topology();
-  std::vector<int> mine(topology.num_vertices(), 0);
-  scene.type.resize(mine.size());
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh.vertex(atom->tag[i]);
-    if (v >= 0 && (atom->mask[i] & groupbit)) mine[v] = atom->type[i];
-  }
-  MPI_Allreduce(mine.data(), scene.type.data(), mine.size(), MPI_INT, MPI_MAX, world);
-
-  // every rank has the whole mesh: deal the faces out evenly
-
-  int next = 0;
-  for (int f = 0; f < topology.num_faces(); ++f) {
-    const Face &face = topology.face(f);
-    if (scene.type[face[0]] && scene.type[face[1]] && scene.type[face[2]] &&
-        next++ % comm->nprocs == comm->me)
-      scene.faces.push_back(f);
-  }
-}
+/* ---------------------------------------------------------------------- */
 
 double DumpMembraneImage::value(const LimitPoint &point) const
 {
@@ -367,34 +301,15 @@ double DumpMembraneImage::value(const LimitPoint &point) const
    colors around the mean over the surface: a few sharp bends do not use them all up
 ------------------------------------------------------------------------- */
 
-void DumpMembraneImage::choose_range(Scene &scene)
+void DumpMembraneImage::choose_range(MeshScene &scene)
 {
   const bool curvature = coloring == Coloring::MEAN_CURVATURE ||
       coloring == Coloring::GAUSSIAN_CURVATURE;
   if (!curvature) return;
 
   if (auto_range) {
-    FaceTessellation coarse(2);
-    StencilPoints stencil;
-    double mine[3] = {0.0, 0.0, 0.0}, all[3];    // area, and integrals of the value and its square
-    for (int f : scene.faces) {
-      stencil_points(mesh.topology(), scene.control, f, stencil);
-      coarse.evaluate(mesh.topology().valences(f), stencil, scene.points);
-      for (const Face &t : coarse.triangles()) {
-        const LimitPoint &a = scene.points[t[0]], &b = scene.points[t[1]], &c = scene.points[t[2]];
-        const double area = 0.5 * (b.position - a.position).cross(c.position - a.position).norm();
-        if (!std::isfinite(area + value(a) + value(b) + value(c))) continue;
-        mine[0] += area;
-        for (const LimitPoint *p : {&a, &b, &c}) {
-          mine[1] += area / 3.0 * value(*p);
-          mine[2] += area / 3.0 * value(*p) * value(*p);
-        }
-      }
-    }
-    MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
-    if (all[0] == 0.0) return;
-    const double mean = all[1] / all[0];
-    const double deviation = std::sqrt(MAX(0.0, all[2] / all[0] - mean * mean));
+    double mean, deviation;
+    if (!scene.statistics([this](const LimitPoint &p) { return value(p); }, mean, deviation)) return;
     double width = MAX(WIDTH * deviation, LEAST_WIDTH * std::fabs(mean));
     if (width == 0.0) width = 1.0;
     lo = mean - width;
@@ -403,22 +318,23 @@ void DumpMembraneImage::choose_range(Scene &scene)
 
   if (own_map && image->map_dynamic(SURFACE_MAP) && image->map_minmax(SURFACE_MAP, lo, hi))
     error->all(FLERR, "dump_modify smap has values outside the range {:.6g} to {:.6g}", lo, hi);
-  if (me == 0 && !range_told && !(own_map && !image->map_dynamic(SURFACE_MAP)))
+  if (me == 0 && !range_reported && !(own_map && !image->map_dynamic(SURFACE_MAP)))
     utils::logmesg(lmp, "Dump {} colors membranes by {} curvature from {:.6g} to {:.6g}\n", id,
                    coloring == Coloring::MEAN_CURVATURE ? "mean" : "Gaussian", lo, hi);
-  range_told = true;
+  range_reported = true;
 }
 
 /* ---------------------------------------------------------------------- */
 
-Vector3d DumpMembraneImage::color(const Scene &scene, int f, const LimitPoint &point, int p) const
+Vector3d DumpMembraneImage::color(const MeshScene &scene, int f, const LimitPoint &point,
+                                  int p) const
 {
-  const Face &face = mesh.topology().face(f);
+  const Face &face = mesh->topology().face(f);
   switch (coloring) {
     case Coloring::MOLECULE:
-      return Membrane_NS::distinct_color(mesh.membrane(mesh.topology().component(face[0])));
+      return Membrane_NS::distinct_color(mesh->membrane(mesh->topology().component(face[0])));
     case Coloring::TYPE:
-      return Vector3d(colortype[scene.type[face[tessellation->nearest_corner(p)]]]);
+      return Vector3d(colortype[scene.type(face[tessellation->nearest_corner(p)])]);
     default:
       if (own_map) return Vector3d(image->map_value2color(SURFACE_MAP, value(point)));
       return Membrane_NS::diverging_color((value(point) - lo) / (hi - lo));
@@ -429,14 +345,12 @@ Vector3d DumpMembraneImage::color(const Scene &scene, int f, const LimitPoint &p
 
 void DumpMembraneImage::draw_surface()
 {
-  Scene scene;
-  place(scene);
-  read_vertices(scene);
+  MeshScene scene(lmp, *mesh, groupbit, in_one_piece);
   choose_range(scene);
 
   int n = subdivide;
   if (n == 0) {
-    const double sides = std::ceil(mesh.longest_edge() / (TRIANGLE_PIXELS * camera.pixel));
+    const double sides = std::ceil(mesh->longest_edge() / (TRIANGLE_PIXELS * camera.pixel));
     n = static_cast<int>(MIN(MAX(sides, 2.0), FINEST));
   }
   if (!tessellation || tessellation->subdivision() != n)
@@ -446,20 +360,16 @@ void DumpMembraneImage::draw_surface()
   if (region) region->prematch();
   camera.centre = {image->xctr, image->yctr, image->zctr};
 
-  const TriangleMesh &control = scene.control;
-  StencilPoints stencil;
+  std::vector<LimitPoint> points;
   std::vector<Corner> corners;
-  for (int f : scene.faces) {
-    stencil_points(mesh.topology(), control, f, stencil);
-    tessellation->evaluate(mesh.topology().valences(f), stencil, scene.points);
+  for (int f : scene.faces()) {
+    scene.evaluate(f, *tessellation, points);
     corners.clear();
-    for (const LimitPoint &point : scene.points)
+    for (const LimitPoint &point : points)
       corners.push_back(
           {point.position, point.normal, color(scene, f, point, static_cast<int>(corners.size()))});
-
-    const auto &wraps = scene.wraps[mesh.topology().component(mesh.topology().face(f)[0])];
     for (const Face &t : tessellation->triangles())
-      draw_triangle({corners[t[0]], corners[t[1]], corners[t[2]]}, wraps, region);
+      draw_triangle({corners[t[0]], corners[t[1]], corners[t[2]]}, scene.cut_along(f), region);
   }
 }
 
@@ -468,14 +378,11 @@ void DumpMembraneImage::draw_surface()
 ------------------------------------------------------------------------- */
 
 void DumpMembraneImage::draw_triangle(const std::array<Corner, 3> &triangle,
-                                      const std::array<bool, 3> &wraps, Region *region) const
+                                      const std::array<bool, 3> &cut_along, Region *region) const
 {
-  const double *h = domain->h, *inv = domain->h_inv;
-  auto fractions = [&](const Vector3d &r) {
-    const double d[3] = {r[0] - domain->boxlo[0], r[1] - domain->boxlo[1], r[2] - domain->boxlo[2]};
-    return Vector3d(inv[0] * d[0] + inv[5] * d[1] + inv[4] * d[2], inv[1] * d[1] + inv[3] * d[2],
-                    inv[2] * d[2]);
-  };
+  const Eigen::Matrix3d box = box_vectors(*domain), to_fraction = box_vectors(domain->h_inv);
+  const Vector3d origin(domain->boxlo);
+  auto fractions = [&](const Vector3d &r) -> Vector3d { return to_fraction * (r - origin); };
   int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
   Vector3d low = fractions(triangle[0].position), high = low;
   for (int c = 1; c < 3; ++c) {
@@ -484,7 +391,7 @@ void DumpMembraneImage::draw_triangle(const std::array<Corner, 3> &triangle,
     high = high.cwiseMax(s);
   }
   for (int k = 0; k < 3; ++k)
-    if (wraps[k]) {
+    if (cut_along[k]) {
       first[k] = static_cast<int>(std::floor(low[k]));
       last[k] = static_cast<int>(std::floor(high[k]));
     }
@@ -492,7 +399,7 @@ void DumpMembraneImage::draw_triangle(const std::array<Corner, 3> &triangle,
   for (int i = first[0]; i <= last[0]; ++i)
     for (int j = first[1]; j <= last[1]; ++j)
       for (int k = first[2]; k <= last[2]; ++k) {
-        const Vector3d shift(h[0] * i + h[5] * j + h[4] * k, h[1] * j + h[3] * k, h[2] * k);
+        const Vector3d shift = box * Vector3d(i, j, k);
         std::array<Corner, 3> moved = triangle;
         for (Corner &corner : moved) corner.position -= shift;
         rasterize(camera, moved, [&](const Fragment &fragment) {

@@ -23,6 +23,8 @@ DumpStyle(membrane/image,DumpMembraneImage);
 #include "dump_image.h"
 #include "membrane_picture.h"
 #include "membrane_tessellation.h"
+#include "mesh_local.h"
+#include "mesh_scene.h"
 
 #include <array>
 #include <memory>
@@ -47,14 +49,14 @@ class DumpMembraneImage : public DumpImage {
  private:
   enum class Coloring { MEAN_CURVATURE, GAUSSIAN_CURVATURE, TYPE, MOLECULE } coloring;
   bool draw_points;    // control points are drawn like other atoms
-  bool draw_whole;     // closed membranes are drawn in one piece, beyond the box if need be
+  bool in_one_piece;   // closed membranes are, beyond the box if need be
   bool own_map;        // the user's color map instead of ours
   bool auto_range;
   double lo, hi;    // values at the ends of the color map
-  bool range_told;
+  bool range_reported;
   int subdivide;    // 0: as fine as the picture
 
-  class DistributedMesh &mesh;
+  LocalMesh mesh;
   Membrane_NS::Camera camera;
   std::unique_ptr<Membrane_NS::FaceTessellation> tessellation;
 
@@ -64,14 +66,12 @@ class DumpMembraneImage : public DumpImage {
 
   // === One picture
 
-  struct Scene;
-  void place(Scene &) const;
-  void read_vertices(Scene &) const;
-  void choose_range(Scene &);
+  void choose_range(MeshScene &);
   void draw_surface();
   double value(const Membrane_NS::LimitPoint &) const;
-  Eigen::Vector3d color(const Scene &, int face, const Membrane_NS::LimitPoint &, int point) const;
-  void draw_triangle(const std::array<Membrane_NS::Corner, 3> &, const std::array<bool, 3> &wraps,
+  Eigen::Vector3d color(const MeshScene &, int face, const Membrane_NS::LimitPoint &,
+                        int point) const;
+  void draw_triangle(const std::array<Membrane_NS::Corner, 3> &, const std::array<bool, 3> &cut_along,
                      class Region *) const;
   void draw_pixel(const Membrane_NS::Fragment &) const;
 };

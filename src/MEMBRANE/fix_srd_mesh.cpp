@@ -19,29 +19,19 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_deform.h"
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
 #include "modify.h"
-#include "pair.h"
 #include "update.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using Membrane_NS::CollisionRule;
 using Inside = SRDMeshArguments::Inside;
-using Shift = SRDMeshArguments::Shift;
-
-// with shorter free paths than these, in cells, solvent meets the same partners again and again
-static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
 
 // default modulus in kT that keeps faces from turning over among solvent
 static constexpr double STIFF_MESH = 10.0;
@@ -50,18 +40,17 @@ static constexpr double STIFF_MESH = 10.0;
 
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), given(SRDMeshArguments::parse(lmp, narg, arg)), membrane(given.membranes),
-    temperature(given.temperature), cell_settings(given.cells), solvent(lmp, igroup), streaming(lmp),
-    have_obstacle(false), running(false), membranes_join(false),
-    aside(lmp, igroup, std::string("not_solvent_of_") + id),
-    num_solvent(0), solvent_mass(1.0), filling(0.0), velocities_set(false), have_forces(false),
-    velocities_stay(false), clear_forces(false), values{}, carried{}, sampled(-1)
+    solvent(lmp, igroup), fluid(lmp, given), influences(lmp, this), streaming(lmp), observables(lmp),
+    aside(lmp, igroup, std::string("not_solvent_of_") + id), have_membranes(false),
+    have_obstacle(false), running(false), membranes_join(false), velocities_set(false),
+    clear_forces(false), stiffness(0.0), sampled(-1), natoms_after_run(-1)
 {
   time_integrate = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
   restart_global = 1;
   vector_flag = 1;
-  size_vector = NUM_VALUES;
+  size_vector = SRDObservables::NUM_VALUES;
   global_freq = 1;
   extvector = 0;
 
@@ -79,7 +68,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
   settings.level = given.level;
   settings.most_bounces = given.bounces;
   settings.spacing = given.search;
-  settings.stray = cell_settings.size;
+  settings.stray = given.cells.size;
   settings.user = "Fix srd/mesh";
   obstacle = std::make_unique<SurfaceObstacle>(lmp, settings);
   grow_arrays(atom->nmax);
@@ -99,11 +88,6 @@ int FixSRDMesh::setmask()
       FINAL_INTEGRATE | PRE_EXCHANGE | END_OF_STEP | POST_RUN;
 }
 
-double FixSRDMesh::kT() const
-{
-  return force->boltz * temperature / force->mvv2e;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void FixSRDMesh::init()
@@ -113,24 +97,32 @@ void FixSRDMesh::init()
   running = false;
   solvent.refresh();
   check_group();
-  find_influences();
+  influences.init(solvent);
   aside.init(!given.ghosts);
   clear_forces = aside.active();
   streaming.find_walls();
-
-  if (mass) {
-    if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
-      mass->settings = integrator->mass_settings();
-    mass->settings.direct = false;    // it solves nothing
-    if (group->count(membrane) > 0) {
-      check_other_solvents();
-      check_box_movers();
-      mass->init();
-      obstacle->init();
-      keep_meshes_in_shape();
-    }
-  }
+  have_membranes = membrane >= 0 && group->count(membrane) > 0;
+  if (have_membranes)
+    init_membranes();
+  else
+    have_obstacle = membranes_join = false;
   prepare_cells();
+}
+
+void FixSRDMesh::init_membranes()
+{
+  if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
+    mass->settings = integrator->mass_settings();
+  mass->settings.direct = false;    // it solves nothing
+  check_other_solvents();
+  influences.check_box_movers(solvent, membrane);
+  mass->init();
+  obstacle->init();
+  if (stiffness > 0.0 && comm->me == 0)
+    utils::logmesg(lmp,
+                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
+                   "has none\n",
+                   stiffness, STIFF_MESH);
 }
 
 /* ----------------------------------------------------------------------
@@ -138,29 +130,24 @@ void FixSRDMesh::init()
    hundred steps faces would turn over
 ------------------------------------------------------------------------- */
 
-void FixSRDMesh::keep_meshes_in_shape()
+void *FixSRDMesh::extract(const char *name, int &dim)
 {
-  int dim;
-  Pair *helfrich = force->pair_match("helfrich", 1);
-  auto *regularize =
-      helfrich ? static_cast<double *>(helfrich->extract("default_regularize", dim)) : nullptr;
-  if (!regularize || mass->count() == 0) return;
-  *regularize = STIFF_MESH * force->boltz * temperature;
-  if (comm->me == 0)
-    utils::logmesg(lmp,
-                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
-                   "has none\n",
-                   *regularize, STIFF_MESH);
+  dim = 0;
+  if (strcmp(name, "default_regularize") != 0 || membrane < 0 || group->count(membrane) == 0)
+    return nullptr;
+  solvent.refresh();
+  fluid.measure(solvent);
+  stiffness = STIFF_MESH * force->boltz * fluid.temperature();
+  return &stiffness;
 }
 
 /* ----------------------------------------------------------------------
-   solvent: some, no control points among it, moved by this fix alone
+   solvent: some, no control points among it
 ------------------------------------------------------------------------- */
 
 void FixSRDMesh::check_group()
 {
-  num_solvent = solvent.total();
-  if (num_solvent == 0)
+  if (solvent.total() == 0)
     error->all(FLERR,
                "Fix srd/mesh: there is no solvent in group {}: use create_atoms or "
                "create_solvent",
@@ -178,20 +165,6 @@ void FixSRDMesh::check_group()
   if (any[1])
     error->all(FLERR, "Fix srd/mesh: atom {} is both solvent and in the group of membranes",
                any[1]);
-
-  for (auto &other : modify->get_fix_list()) {
-    if (other == this || !other->time_integrate) continue;
-    int mine = 0, moved;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (solvent.has(i) && atom->mask[i] & other->groupbit) mine = 1;
-    MPI_Allreduce(&mine, &moved, 1, MPI_INT, MPI_MAX, world);
-    if (moved)
-      error->all(
-          FLERR,
-          "Fix srd/mesh moves its solvent itself, and fix {} ({}) moves some of it, too: use "
-          "groups without common atoms",
-          other->id, other->style);
-  }
 }
 
 /* ----------------------------------------------------------------------
@@ -216,128 +189,14 @@ void FixSRDMesh::check_other_solvents()
   }
 }
 
-// what one of them takes along with the box and the other does not would pass through it
-
-void FixSRDMesh::check_box_movers()
-{
-  for (auto &fix : modify->get_fix_by_style("^deform")) {
-    const auto *deform = dynamic_cast<FixDeform *>(fix);
-    if (!deform || deform->remapflag != Domain::X_REMAP) continue;
-    int mine[2] = {0, 0}, any[2];    // not in its group, in it
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (solvent.has(i) || atom->mask[i] & group->bitmask[membrane])
-        mine[(atom->mask[i] & fix->groupbit) != 0] = 1;
-    MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
-    if (any[0] && any[1])
-      error->all(FLERR,
-                 "Fix srd/mesh: fix {} (deform) with remap x needs all solvent and all membranes of group {} in "
-                 "its group {}",
-                 fix->id, group->names[membrane], group->names[fix->igroup]);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   Most solvent feels no force: then there is none to read, nor to clear. And where no fix that has
-   solvent in its group acts at other points of a step than forces do, only this fix changes its velocities
-   and places, so they are known in advance. Some fixes act on more than their group
-------------------------------------------------------------------------- */
-
-void FixSRDMesh::find_influences()
-{
-  static constexpr const char *OBSERVERS[] = {"^ave/",   "^print$",  "^vector$", "^store/",
-                                              "^STORE/", "^balance", "^halt$"};
-  static constexpr const char *UNKNOWN[] = {"^recenter", "^python/", "^external"};
-  const auto is_one_of = [](const Fix *fix, const auto &patterns) {
-    return std::any_of(std::begin(patterns), std::end(patterns), [fix](const char *pattern) {
-      return utils::strmatch(fix->style, pattern);
-    });
-  };
-  constexpr int BY_FORCES = POST_FORCE | PRE_REVERSE;
-  constexpr int OTHERWISE = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR |
-      POST_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE | END_OF_STEP;
-  int mine[2] = {0, 0}, any[2];    // forces, velocities
-  const auto &fixes = modify->get_fix_list();
-  for (size_t f = 0; f < fixes.size(); ++f) {
-    if (fixes[f] == this) continue;
-    const int mask = modify->fmask[f];
-    const bool observes = is_one_of(fixes[f], OBSERVERS);
-    const int acts[2] = {mask & BY_FORCES, observes ? 0 : mask & OTHERWISE};
-    if (is_one_of(fixes[f], UNKNOWN)) mine[1] = 1;
-    for (int what = 0; what < 2; ++what)
-      for (int i = 0; i < atom->nlocal && acts[what] && !mine[what]; ++i)
-        if (solvent.has(i) && (group->dynamic[fixes[f]->igroup] || atom->mask[i] & fixes[f]->groupbit))
-          mine[what] = 1;
-  }
-  if (force->pair && force->pair->cutsq)
-    for (int i = 0; i < atom->nlocal && !mine[0]; ++i)
-      for (int t = 1; t <= atom->ntypes && solvent.has(i); ++t)
-        if (force->pair->cutsq[atom->type[i]][t] > 0.0) mine[0] = 1;
-  MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
-  have_forces = any[0];
-  velocities_stay = !any[1];
-}
-
-/* ----------------------------------------------------------------------
-   cells, free path and what follows from them
-------------------------------------------------------------------------- */
-
 void FixSRDMesh::prepare_cells()
 {
-  double p[4];
-  solvent.momentum(p);
-  solvent_mass = p[3] / num_solvent;
-  const double step = nevery * update->dt;
-  if (given.lamda > 0.0)
-    temperature = std::pow(given.lamda / step, 2) * solvent_mass * force->mvv2e / force->boltz;
-  cell_settings.rule.kT = kT();
-  values[FREE_PATH] = Membrane_NS::mean_free_path(kT(), solvent_mass, step);
-
-  const double path = values[FREE_PATH] / cell_settings.size;
-  cell_settings.shift = given.shift == Shift::YES || (given.shift == Shift::POSSIBLE && path < SHIFT_PATH);
-  if (!cell_settings.shift && path < SHORT_PATH)
-    error->all(FLERR,
-               "Fix srd/mesh: a mean free path of {:.4g} cells is too short for a grid that stays: "
-               "use shift yes, or a longer time between collisions",
-               path);
-  if (!cell_settings.shift && path < SHIFT_PATH && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix srd/mesh: with a mean free path of {:.4g} cells and no shift, flow depends "
-                   "on the velocity of the grid",
-                   path);
-
   const bool first = !cells;
-  cells = std::make_unique<SRDCells>(lmp, cell_settings);
-  cells->grid.setup(cell_settings.size);
-  SRDGrid &grid = cells->grid;
-  filling = num_solvent * grid.cell_volume() / (domain->xprd * domain->yprd * domain->zprd);
-  if (grid.deviation() > given.cubic_tolerance) {
-    const std::string text = fmt::format(
-        "Fix srd/mesh: cells of {:.6g} x {:.6g} x {:.6g} that fit the box differ from hgrid {} by "
-        "more than {}: change the box or hgrid, or allow it with cubic warn {:.2g}",
-        grid.edge(0), grid.edge(1), grid.edge(2), cell_settings.size, given.cubic_tolerance,
-        std::ceil(100.0 * grid.deviation()) / 100.0);
-    if (given.cubic_error) error->all(FLERR, text);
-    if (comm->me == 0 && first) error->warning(FLERR, text);
-  }
-
-  const double edge = std::cbrt(grid.cell_volume());
-  values[VISCOSITY] = cell_settings.rule.method == CollisionRule::Method::SRD
-      ? Membrane_NS::srd_viscosity(filling, cell_settings.rule.angle, kT(), solvent_mass, edge,
-                                   step)
-      : Membrane_NS::at_viscosity(filling, kT(), solvent_mass, edge, step);
-  if (first) report();
-}
-
-void FixSRDMesh::report()
-{
-  if (comm->me != 0) return;
-  const SRDGrid &grid = cells->grid;
-  utils::logmesg(
-      lmp,
-      "Fix srd/mesh: {} solvent atoms in {} x {} x {} cells of {:.6g} x {:.6g} x {:.6g}\n"
-      "  atoms per cell = {:.6g}, mean free path = {:.6g}, viscosity = {:.6g}\n",
-      num_solvent, grid.divisions(0), grid.divisions(1), grid.divisions(2), grid.edge(0),
-      grid.edge(1), grid.edge(2), filling, values[FREE_PATH], values[VISCOSITY]);
+  fluid.measure(solvent);
+  cells = std::make_unique<SRDCells>(lmp, fluid.cell_settings());
+  cells->grid.setup(given.cells.size);
+  fluid.fit(cells->grid, first);
+  if (first) fluid.report(cells->grid);
 }
 
 // === Setup of a run
@@ -356,48 +215,20 @@ void FixSRDMesh::setup_pre_neighbor()
 void FixSRDMesh::setup_pre_force(int)
 {
   zero_forces();
-  if (!velocities_set && given.set_velocities) maxwell();
+  if (!velocities_set && given.set_velocities)
+    solvent.draw_velocities(given.seed, update->ntimestep, fluid.kT());
   velocities_set = true;
 }
 
 void FixSRDMesh::setup(int)
 {
   sampled = -1;
-  have_obstacle = obstacle && group->count(membrane) > 0;
+  have_obstacle = have_membranes;
   membranes_join = have_obstacle && given.noslip;
   running = true;
   if (!have_obstacle) return;
-  obstacle->forces_on_solvent = have_forces;
+  obstacle->meetings.forces_on_solvent = influences.have_forces;
   obstacle->setup(solvent);
-}
-
-/* ----------------------------------------------------------------------
-   Maxwell's distribution less its momentum, then scaled to the temperature
-------------------------------------------------------------------------- */
-
-void FixSRDMesh::maxwell()
-{
-  double **v = atom->v;
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (solvent.has(i))
-      Membrane_NS::thermal_velocity(given.seed, update->ntimestep, atom->tag[i], kT(), solvent.mass()[i],
-                                    v[i]);
-  double p[4];
-  solvent.momentum(p);
-  double mine = 0.0, twice_energy;
-  for (int i = solvent.first(); i < solvent.last(); ++i) {
-    if (!solvent.has(i)) continue;
-    for (int k = 0; k < 3; ++k) {
-      v[i][k] -= p[k] / p[3];
-      mine += solvent.mass()[i] * v[i][k] * v[i][k];
-    }
-  }
-  MPI_Allreduce(&mine, &twice_energy, 1, MPI_DOUBLE, MPI_SUM, world);
-  if (num_solvent < 2) return;
-  const double scale = std::sqrt(3.0 * (num_solvent - 1) * kT() / twice_energy);
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (solvent.has(i))
-      for (int k = 0; k < 3; ++k) v[i][k] *= scale;
 }
 
 // === A step
@@ -409,37 +240,33 @@ bool FixSRDMesh::is_due() const
 
 void FixSRDMesh::initial_integrate(int)
 {
-  if (have_forces) kick();
+  if (influences.have_forces) kick();
 }
 
 void FixSRDMesh::final_integrate()
 {
-  if (have_forces) kick();
+  if (influences.have_forces) kick();
   if (have_obstacle) obstacle->remember();
 }
 
 void FixSRDMesh::post_run()
 {
   if (have_obstacle && running) check_sides();
-  if (obstacle) obstacle->forget();    // after it anybody may change velocities, and run pre no
+  solvent_changed();    // after it anybody may change velocities, and run pre no
+  natoms_after_run = atom->natoms;
 }
 
 void FixSRDMesh::kick()
 {
-  const double half = 0.5 * update->dt * force->ftm2v;
-  double most = 0.0;
-  for (int i = solvent.first(); i < solvent.last(); ++i) {
-    if (!solvent.has(i)) continue;
-    const double scale = half / solvent.mass()[i];
-    double squared = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double change = scale * atom->f[i][k];
-      atom->v[i][k] += change;
-      squared += change * change;
-    }
-    most = MAX(most, squared);
-  }
-  if (obstacle) obstacle->kicked(std::sqrt(most));
+  const double most = solvent.kick(0.5 * update->dt);
+  if (obstacle) obstacle->meetings.velocities_changed_by(most);
+}
+
+// all that is known of its ways is void
+
+void FixSRDMesh::solvent_changed()
+{
+  if (obstacle) obstacle->meetings.solvent_changed();
 }
 
 /* ----------------------------------------------------------------------
@@ -479,8 +306,8 @@ void FixSRDMesh::post_integrate()
 
 void FixSRDMesh::stream_past_membranes(double dt, double until_collision)
 {
-  if (!velocities_stay) obstacle->forget();
-  obstacle->stream(solvent, streaming, dt, velocities_stay ? until_collision : dt);
+  if (!influences.velocities_stay) solvent_changed();
+  obstacle->stream({solvent, streaming, dt, influences.velocities_stay ? until_collision : dt});
 }
 
 void FixSRDMesh::wrap()
@@ -519,14 +346,14 @@ bool FixSRDMesh::any_strayed()
 void FixSRDMesh::pre_neighbor()
 {
   solvent.refresh();
-  if (obstacle) obstacle->forget();
-  cells->grid.setup(cell_settings.size);
-  if (!have_forces) zero_forces();
+  solvent_changed();
+  cells->grid.setup(given.cells.size);
+  if (!influences.have_forces) zero_forces();
 }
 
 void FixSRDMesh::pre_force(int)
 {
-  if (have_forces) zero_forces();
+  if (influences.have_forces) zero_forces();
 }
 
 void FixSRDMesh::end_of_step()
@@ -536,11 +363,11 @@ void FixSRDMesh::end_of_step()
 
 void FixSRDMesh::collide()
 {
-  if (domain->box_change) cells->grid.setup(cell_settings.size);
-  if (membranes_join) obstacle->join_cells(*cells, update->ntimestep, kT());
-  cells->collide(solvent, update->ntimestep, streaming.walls, filling, solvent_mass, sides());
+  if (domain->box_change) cells->grid.setup(given.cells.size);
+  if (membranes_join) obstacle->join_cells(*cells, update->ntimestep, fluid.kT());
+  cells->collide(solvent, update->ntimestep, streaming.walls, fluid.filling(), fluid.mass(), sides());
   if (membranes_join) obstacle->leave_cells(*cells);
-  if (have_obstacle) obstacle->forget();
+  solvent_changed();
 }
 
 void FixSRDMesh::min_pre_force(int)
@@ -550,9 +377,7 @@ void FixSRDMesh::min_pre_force(int)
 
 void FixSRDMesh::zero_forces()
 {
-  if (!clear_forces) return;
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    if (solvent.has(i)) std::fill_n(atom->f[i], 3, 0.0);
+  if (clear_forces) solvent.zero_forces();
 }
 
 // === Output
@@ -561,68 +386,18 @@ double FixSRDMesh::compute_vector(int i)
 {
   if (!cells) return 0.0;
   if (sampled != update->ntimestep) sample();
-  return values[i];
+  return observables[i];
 }
 
 void FixSRDMesh::sample()
 {
+  if (update->whichflag == 0 && natoms_after_run >= 0 && atom->natoms != natoms_after_run)
+    error->all(FLERR, "Fix srd/mesh: there are other atoms than in the last run: use run 0");
   sampled = update->ntimestep;
   solvent.refresh();
   if (have_obstacle && running) check_sides();
-  const double unit = force->mvv2e / force->boltz;
-  const auto thermal = cells->measure(solvent, sides());
-  auto temperature_of = [unit](const Membrane_NS::CellEnergy &e) {
-    return e.freedom > 0.0 ? unit * e.energy / e.freedom : 0.0;
-  };
-  values[TEMPERATURE] = temperature_of(thermal.all);
-  values[TEMPERATURE_IN] = temperature_of(thermal.inside);
-  values[TEMPERATURE_OUT] = temperature_of(thermal.outside);
-
-  double p[4];
-  solvent.momentum(p);
-  std::copy_n(p, 3, values + MOMENTUM);
-  if (mass && mass->count() > 0) {
-    mass->refresh();
-    Membrane_NS::VertexField v, pv;
-    mass->part().load(atom->v, v);
-    pv.resize(v.size());
-    mass->matrix().multiply(v, pv);
-    double sum[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < mass->part().owned; ++i)
-      for (int k = 0; k < 3; ++k) sum[k] += pv[i].c[k];
-    mass->part().sum(sum, 3);
-    for (int k = 0; k < 3; ++k) values[MOMENTUM + k] += sum[k];
-  }
-
-  sample_obstacle();
-  MPI_Allreduce(streaming.walls.impulse, values + WALLS, 3, MPI_DOUBLE, MPI_SUM, world);
-  for (int i = 0; i < NUM_VALUES; ++i) values[i] += carried[i];
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixSRDMesh::sample_obstacle()
-{
-  values[INSIDE] = 0.0;
-  values[OUTSIDE] = static_cast<double>(num_solvent);
-  if (!obstacle) return;
-  constexpr int N = SurfaceObstacle::NUM_TALLIES;
-  double sum[N];
-  MPI_Allreduce(obstacle->tally, sum, N, MPI_DOUBLE, MPI_SUM, world);
-  values[COLLISIONS] = sum[SurfaceObstacle::COLLISIONS];
-  values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS];
-  values[RESCUES] = sum[SurfaceObstacle::RESCUES];
-  std::copy_n(sum + SurfaceObstacle::HANDED, 3, values + HANDED);
-  values[NORMAL_IMPULSE] = sum[SurfaceObstacle::INNER] - sum[SurfaceObstacle::OUTER];
-
-  if (!have_obstacle) return;
-  const SurfaceRegions &regions = obstacle->regions;
-  bigint mine = 0, all;
-  for (int i = solvent.first(); i < solvent.last(); ++i)
-    mine += solvent.has(i) && regions.is_inside(regions.region[i]);
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  values[INSIDE] = static_cast<double>(all);
-  values[OUTSIDE] = static_cast<double>(num_solvent - all);
+  observables.sample({solvent, fluid, *cells, sides(), have_membranes ? mass.get() : nullptr,
+                      obstacle.get(), have_obstacle, streaming.walls.impulse});
 }
 
 // solvent on the two sides of a membrane does not collide with each other
@@ -682,11 +457,9 @@ int FixSRDMesh::unpack_exchange(int i, double *buf)
 void FixSRDMesh::write_restart(FILE *fp)
 {
   if (cells) sample();
-  double list[NUM_VALUES + 1] = {};
+  double list[SRDObservables::NUM_VALUES + 1];
   list[0] = velocities_set;
-  for (int i : {(int) COLLISIONS, (int) CROSSINGS, (int) RESCUES, (int) HANDED, HANDED + 1,
-                HANDED + 2, (int) NORMAL_IMPULSE, (int) WALLS, WALLS + 1, WALLS + 2})
-    list[1 + i] = cells ? values[i] : carried[i];
+  observables.store(list + 1);
   if (comm->me != 0) return;
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
@@ -695,10 +468,10 @@ void FixSRDMesh::write_restart(FILE *fp)
 
 void FixSRDMesh::restart(char *buf)
 {
-  double list[NUM_VALUES + 1];
+  double list[SRDObservables::NUM_VALUES + 1];
   memcpy(list, buf, sizeof(list));
   velocities_set = list[0] != 0.0;
-  std::copy_n(list + 1, (int) NUM_VALUES, carried);
+  observables.restore(list + 1);
 }
 
 double FixSRDMesh::memory_usage()

@@ -21,15 +21,19 @@ FixStyle(srd/mesh,FixSRDMesh);
 #define LMP_FIX_SRD_MESH_H
 
 #include "fix.h"
-#include "srd_ghost_free_group.h"
 #include "hd_mass.h"
 #include "srd_cells.h"
+#include "srd_fluid.h"
+#include "srd_ghost_free_group.h"
+#include "srd_influences.h"
 #include "srd_mesh_arguments.h"
+#include "srd_obstacle.h"
+#include "srd_observables.h"
 #include "srd_solvent.h"
 #include "srd_streaming.h"
-#include "srd_obstacle.h"
 
 #include <memory>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -57,6 +61,9 @@ class FixSRDMesh : public Fix {
   void end_of_step() override;
   void post_run() override;
   double compute_vector(int) override;
+  /** "default_regularize", dim 0: a double, the modulus that meshes need among solvent, for pair style
+      helfrich where pair_coeff says nothing; null without membranes. Collective; may be asked before init(). */
+  void *extract(const char *, int &) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   void grow_arrays(int) override;
@@ -69,57 +76,43 @@ class FixSRDMesh : public Fix {
  private:
   const SRDMeshArguments given;
   const int membrane;          // group, or -1
-  double temperature;
-  SRDCells::Settings cell_settings;
 
   // the roles
   SRDSolvent solvent;
+  SRDFluid fluid;
+  SRDInfluences influences;
   SRDStreaming streaming;
   std::unique_ptr<SRDCells> cells;
-  std::unique_ptr<HDMass> mass;    // of the membranes; none without them
+  std::unique_ptr<HDMass> mass;    // of the membranes; none without a group of them
   std::unique_ptr<SurfaceObstacle> obstacle;
-  bool have_obstacle;              // there are membranes, and setup() has been there
-  bool running;                    // in a run since setup(), not a minimization
-  bool membranes_join;             // their point masses take part in collisions in cells
-  std::vector<int> side;           // of a membrane, by owned atom
+  SRDObservables observables;
   GhostFreeGroup aside;
 
-  bigint num_solvent;
-  double solvent_mass;         // mean
-  double filling;              // mean number in a cell
+  bool have_membranes;         // the group has atoms, as of init()
+  bool have_obstacle;          // so there are membranes, and setup() has been there
+  bool running;                // in a run since setup(), not a minimization
+  bool membranes_join;         // their point masses take part in collisions in cells
+  std::vector<int> side;       // of a membrane, by owned atom
   bool velocities_set;         // by the first run
-  bool have_forces;            // some fix or pair style acts on solvent
-  bool velocities_stay;        // but for forces and what this fix does
   bool clear_forces;           // LAMMPS does not
-
-  enum {
-    TEMPERATURE, COLLISIONS, CROSSINGS, RESCUES, MOMENTUM, INSIDE = MOMENTUM + 3, OUTSIDE,
-    VISCOSITY, TEMPERATURE_IN, TEMPERATURE_OUT, HANDED, FREE_PATH = HANDED + 3,
-    NORMAL_IMPULSE, WALLS, NUM_VALUES = WALLS + 3
-  };
-  double values[NUM_VALUES], carried[NUM_VALUES];    // now; up to the restart file
-  bigint sampled;
+  double stiffness;            // see extract(); 0 if nobody has asked
+  bigint sampled, natoms_after_run;
 
   void check_group();
   void check_other_solvents();
-  void check_box_movers();
-  void keep_meshes_in_shape();
-  void find_influences();
+  void init_membranes();
   void prepare_cells();
-  void report();
-  void maxwell();
-  void kick();
   void stream_past_membranes(double dt, double until_collision);
+  void kick();
+  void solvent_changed();
   void wrap();
   void collide();
   void zero_forces();
   bool is_due() const;
   bool any_strayed();
   void sample();
-  void sample_obstacle();
   const int *sides();
   void check_sides();
-  double kT() const;
 };
 
 }    // namespace LAMMPS_NS

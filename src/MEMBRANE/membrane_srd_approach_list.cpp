@@ -239,8 +239,8 @@ int ApproachList::count() const
   return n;
 }
 
-bool ApproachList::serves(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices,
-                          double duration)
+bool ApproachList::is_valid_for(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices,
+                                double duration)
 {
   if (!made_ || duration > (1.0 + ROUNDING) * left_) return false;
   double most = 0.0, most_since = 0.0;

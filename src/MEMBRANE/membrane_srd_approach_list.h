@@ -27,7 +27,7 @@ namespace Membrane_NS {
     Points are taken to fly straight for the horizon, and those are listed whose line comes within a
     margin of a triangle where it is now. So for all that is not listed to miss the surface, vertices
     may come up to the margin away from here, and lines of points may bend, both together: the list
-    serves as long as they have not.
+    is valid as long as they have not.
 
     Who turns a point has to add() it anew; points are numbered from 0. The margin adapts itself so that
     nearly all lists last for their horizon, and if that takes more than the most, the horizon does. */
@@ -51,11 +51,12 @@ class ApproachList {
   /// All have been offered.
   void end(SurfaceGrid &grid);
   /** List a point, which is at x now, for the rest of the horizon, in place of what was known of it. The
-      grid must be at the step in hand: that of begin(), or the last that serves() was asked for. */
+      grid must be at the step in hand: that of begin(), or the last that is_valid_for() was asked for. */
   void add(SurfaceGrid &grid, int point, const Eigen::Vector3d &x, const Eigen::Vector3d &velocity);
 
-  /// Whether it serves for the step that the grid has begun.
-  bool serves(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, double duration);
+  /// Whether it is valid for the step that the grid has begun.
+  bool is_valid_for(const SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices,
+                    double duration);
   /// The step is over.
   void pass(double duration);
   /// Velocities of points have changed by up to this.

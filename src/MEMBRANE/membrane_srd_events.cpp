@@ -61,7 +61,7 @@ int CollisionEvents::add_point(const MovingPoint &path, double inverse_mass, int
   return static_cast<int>(points_.size()) - 1;
 }
 
-void CollisionEvents::add_pair(int triangle, int side, Needs needs)
+void CollisionEvents::add_pair(int triangle, int side, MeetingNeeds needs)
 {
   pairs_.push_back({static_cast<int>(points_.size()) - 1, triangle, side, needs, false, {}});
   ++points_.back().last_pair;
@@ -121,7 +121,7 @@ CollisionEvents::Outcome CollisionEvents::run(const std::vector<SurfaceImpulse> 
     queue_.push({from_outside[i].time, from_outside[i].tag, -1, static_cast<int>(i), 0});
   for (int i = 0; i < num_points(); ++i) {
     for (int p = points_[i].first_pair; p < points_[i].last_pair; ++p)
-      if (pairs_[p].needs == Needs::NOTHING)
+      if (pairs_[p].needs == MeetingNeeds::NOTHING)
         foresee(p, 0.0);
       else
         pairs_[p].hits = false;
@@ -150,7 +150,7 @@ void CollisionEvents::foresee(int p, double now)
   Pair &pair = pairs_[p];
   const Point &point = points_[pair.point];
   pair.hits = false;
-  if (pair.needs == Needs::TURN && !point.turned) return;
+  if (pair.needs == MeetingNeeds::TURN && !point.turned) return;
   const SurfaceTriangle &triangle = (*triangles_)[pair.triangle];
   std::array<MovingPoint, 3> corners;
   for (int k = 0; k < 3; ++k) {

@@ -14,30 +14,17 @@
 #ifndef LMP_MEMBRANE_SRD_EVENTS_H
 #define LMP_MEMBRANE_SRD_EVENTS_H
 
-#include "membrane_srd_walls.h"
 #include "membrane_srd_collision.h"
+#include "membrane_srd_control_weights.h"
 #include "membrane_srd_corners.h"
+#include "membrane_srd_surface.h"
+#include "membrane_srd_walls.h"
 
 #include <cstdint>
 #include <queue>
 #include <vector>
 
 namespace Membrane_NS {
-
-/// A vertex of the surface: a point mass, or with inverse mass 0 one that nothing deflects; of a finer
-/// surface, a mean of such masses.
-struct SurfaceVertex {
-  MovingPoint path;
-  double inverse_mass = 0.0;                                 ///< not of a finer surface
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();    ///< by forces, see CollisionEvents
-};
-
-/// A triangle of the surface, in the periodic image where a point may meet it.
-struct SurfaceTriangle {
-  std::array<int, 3> vertex;
-  std::array<Eigen::Vector3d, 3> shift;    ///< from the vertices to the corners, at the start
-  std::array<Eigen::Vector3d, 3> drift;    ///< velocity of that: images in a box that deforms
-};
 
 /// An impulse that the surface received.
 struct SurfaceImpulse {
@@ -53,19 +40,6 @@ struct SurfaceImpulse {
     return time == b.time && tag == b.tag && vertex == b.vertex && weight == b.weight &&
         impulse == b.impulse && control == b.control;
   }
-};
-
-/** The velocity of a control point is a mean of the velocities of many vertices, qdot_j = sum_a l_a w_a
-    with the row l of the inverse limit mask, L^-1. An impulse J on it changes w_a by l_a J/d_a. */
-class ControlWeights {
- public:
-  virtual ~ControlWeights() = default;
-  struct Row {
-    std::vector<int> vertex;
-    std::vector<double> weight;    ///< sums to 1
-  };
-  /// Valid until the next call.
-  virtual const Row &row(int control_point) = 0;
 };
 
 /** All collisions of one time step between points and a surface, in the order of time.
@@ -119,11 +93,8 @@ class CollisionEvents {
   int add_point(const MovingPoint &path, double inverse_mass, int64_t tag, double reach);
   /// By forces on the last point.
   void accelerate_point(const Eigen::Vector3d &a) { points_.back().acceleration = a; }
-  /// For which of these to meet what: the paths as they are, or else vertices deflected by up to their slack,
-  /// or else the point turned.
-  enum class Needs { NOTHING, DEFLECTION, TURN };
   /// A triangle that the last point may meet, and the side it is on.
-  void add_pair(int triangle, int side, Needs needs = Needs::NOTHING);
+  void add_pair(int triangle, int side, MeetingNeeds needs = MeetingNeeds::NOTHING);
 
   // === The step
 
@@ -145,11 +116,8 @@ class CollisionEvents {
   /// What the points added here did to the surface, in the order of time.
   const std::vector<SurfaceImpulse> &impulses() const { return impulses_; }
 
-  struct Change {
-    Eigen::Vector3d velocity, position;
-  };
   /// Changes of masses by all impulses, against straight motion from the start; zero for most.
-  const std::vector<Change> &changes() const { return changes_; }
+  const std::vector<SurfaceChange> &changes() const { return changes_; }
   /// The masses with a change.
   const std::vector<int> &touched() const { return touched_; }
   /// Sum over collisions of the impulse normal to the surface, of points on side +1 and -1.
@@ -171,7 +139,7 @@ class CollisionEvents {
   };
   struct Pair {
     int point, triangle, side;
-    Needs needs;
+    MeetingNeeds needs;
     bool hits;
     TriangleHit hit;
   };
@@ -197,7 +165,7 @@ class CollisionEvents {
   bool indexed_ = false;
 
   std::vector<MovingPoint> paths_;    // of vertices, as they are turned
-  std::vector<Change> changes_;
+  std::vector<SurfaceChange> changes_;
   std::vector<int> touched_;
   std::vector<char> is_touched_;
 

@@ -14,7 +14,7 @@
 #ifndef LMP_MEMBRANE_SRD_INVERSE_MASK_H
 #define LMP_MEMBRANE_SRD_INVERSE_MASK_H
 
-#include "membrane_srd_events.h"
+#include "membrane_srd_control_weights.h"
 #include "membrane_topology.h"
 
 #include <unordered_map>

@@ -17,10 +17,7 @@
 
 #include "membrane_srd_surface_grid.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <map>
 
 using namespace Membrane_NS;
 using Eigen::Matrix3d;
@@ -37,7 +34,6 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
 {
   settings_ = settings;
   lo_ = lo;
-  lattice_ = lattice;
   built_at_.resize(vertices.size());
   for (size_t v = 0; v < vertices.size(); ++v) built_at_[v] = vertices[v].path.origin;
 
@@ -54,89 +50,11 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
 
   const double pad = settings.skin + settings.reach;
   const Vector3d end = lo + spacing_ * Vector3d(size_[0], size_[1], size_[2]);
-  find_images(surface, vertices, lattice, periodic, end, pad);
-  find_corners(surface, static_cast<int>(vertices.size()));
+  find_images(surface, vertices, lattice, periodic, lo, end, pad);
   begin(vertices, 0.0, 0.0);
   fill(pad);
-  find_led();
   find_distances();
   listed_ = pad;
-}
-
-/* ----------------------------------------------------------------------
-   the periodic images of each face that come near the region of the grid
-------------------------------------------------------------------------- */
-
-void SurfaceGrid::find_images(const SurfaceFaces &surface,
-                              const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice,
-                              const std::array<bool, 3> &periodic, const Vector3d &hi, double pad)
-{
-  const Matrix3d to_fraction = lattice.inverse();
-  const Vector3d lo_padded = lo_.array() - pad, hi_padded = hi.array() + pad;
-  Vector3d region_lo = Vector3d::Constant(INFINITY), region_hi = -region_lo;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vector3d x;
-    for (int k = 0; k < 3; ++k) x[k] = corner >> k & 1 ? hi_padded[k] : lo_padded[k];
-    const Vector3d s = to_fraction * x;
-    region_lo = region_lo.cwiseMin(s);
-    region_hi = region_hi.cwiseMax(s);
-  }
-
-  images_.clear();
-  for (size_t f = 0; f < surface.faces.size(); ++f) {
-    std::array<Vector3d, 3> x;
-    Vector3d first = Vector3d::Constant(INFINITY), last = -first;
-    for (int k = 0; k < 3; ++k) {
-      x[k] = vertices[surface.faces[f][k]].path.origin;
-      if (!surface.seams.empty())
-        for (int j = 0; j < 3; ++j) x[k] += surface.seams[f][k][j] * lattice.col(j);
-      const Vector3d s = to_fraction * x[k];
-      first = first.cwiseMin(s);
-      last = last.cwiseMax(s);
-    }
-    std::array<int, 3> from = {0, 0, 0}, to = {0, 0, 0}, i;
-    for (int k = 0; k < 3; ++k)
-      if (periodic[k]) {
-        from[k] = static_cast<int>(std::ceil(region_lo[k] - last[k]));
-        to[k] = static_cast<int>(std::floor(region_hi[k] - first[k]));
-      }
-    for (i[0] = from[0]; i[0] <= to[0]; ++i[0])
-      for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
-        for (i[2] = from[2]; i[2] <= to[2]; ++i[2]) {
-          const Vector3d shift = lattice * Vector3d(i[0], i[1], i[2]);
-          bool near = true;
-          for (int k = 0; k < 3 && near; ++k)
-            near = std::min({x[0][k], x[1][k], x[2][k]}) + shift[k] <= hi_padded[k] &&
-                std::max({x[0][k], x[1][k], x[2][k]}) + shift[k] >= lo_padded[k];
-          if (near) images_.push_back({static_cast<int>(f), i});
-        }
-  }
-}
-
-// few corners are not the vertex itself but one of its images
-
-void SurfaceGrid::find_corners(const SurfaceFaces &surface, int num_vertices)
-{
-  corners_.resize(num_vertices);
-  for (int v = 0; v < num_vertices; ++v) corners_[v] = {v, {0, 0, 0}};
-  std::map<std::pair<int, std::array<int, 3>>, int> others;
-  corners_of_.resize(images_.size());
-  triangles_.resize(images_.size());
-  planes_.resize(images_.size());
-  for (size_t t = 0; t < images_.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const Image &image = images_[t];
-      const int vertex = triangles_[t].vertex[k] = surface.faces[image.face][k];
-      triangles_[t].shift[k] = triangles_[t].drift[k] = Vector3d::Zero();
-      std::array<int, 3> n = image.lattice;
-      if (!surface.seams.empty())
-        for (int j = 0; j < 3; ++j) n[j] += surface.seams[image.face][k][j];
-      corners_of_[t][k] = vertex;
-      if (n == std::array<int, 3>{0, 0, 0}) continue;
-      const auto [other, is_new] = others.try_emplace({vertex, n}, corners_.size());
-      if (is_new) corners_.push_back({vertex, n});
-      corners_of_[t][k] = other->second;
-    }
 }
 
 /* ----------------------------------------------------------------------
@@ -153,11 +71,11 @@ void SurfaceGrid::fill(double pad)
   });
   for (size_t c = 0; c < num_cubes; ++c) start_[c + 1] += start_[c];
   list_.resize(start_.back());
-  lead_.assign(num_cubes, -1);
+  std::vector<int> lead(num_cubes, -1);
   std::vector<double> nearest(num_cubes, INFINITY);
   std::vector<int> next(start_.begin(), start_.end() - 1);
   visit_cubes(pad, [&](int t, int first, int last, double height, double rise) {
-    const Plane &plane = planes_[t];
+    const Plane &plane = this->plane(t);
     const int row = first / size_[0];
     const double y = lo_[1] + spacing_ * (row % size_[1] + 0.5), z = lo_[2] + spacing_ * (row / size_[1] + 0.5);
     const double beside = std::max({plane.lo[1] - y, y - plane.hi[1], plane.lo[2] - z, z - plane.hi[2]});
@@ -167,9 +85,10 @@ void SurfaceGrid::fill(double pad)
       const double distance = std::max({std::fabs(height), beside, plane.lo[0] - x, x - plane.hi[0]});
       if (distance >= nearest[cube]) continue;
       nearest[cube] = distance;
-      lead_[cube] = t;
+      lead[cube] = t;
     }
   });
+  layers_.build(*this, start_, list_, std::move(lead));
 }
 
 /* ----------------------------------------------------------------------
@@ -179,8 +98,8 @@ void SurfaceGrid::fill(double pad)
 
 template <class Visit> void SurfaceGrid::visit_cubes(double pad, const Visit &visit)
 {
-  for (size_t t = 0; t < planes_.size(); ++t) {
-    const Plane &plane = planes_[t];
+  for (size_t t = 0; t < images().size(); ++t) {
+    const Plane &plane = this->plane(t);
     std::array<int, 3> from, to;
     for (int k = 0; k < 3; ++k) {
       const double a = (plane.lo[k] - pad - lo_[k]) * inverse_spacing_,
@@ -208,81 +127,6 @@ template <class Visit> void SurfaceGrid::visit_cubes(double pad, const Visit &vi
         if (first <= last) visit(static_cast<int>(t), row + first, row + last, height + first * rise, rise);
       }
   }
-}
-
-void SurfaceGrid::find_led()
-{
-  const size_t n = images_.size();
-  std::vector<int> first(n + 2, 0), cubes(lead_.size());    // cubes by lead
-  for (int t : lead_)
-    if (t >= 0) ++first[t + 2];
-  for (size_t t = 0; t < n; ++t) first[t + 2] += first[t + 1];
-  for (size_t c = 0; c < lead_.size(); ++c)
-    if (lead_[c] >= 0) cubes[first[lead_[c] + 1]++] = static_cast<int>(c);
-
-  led_.clear();
-  led_start_.assign(1, 0);
-  std::vector<int> seen(n, -1), seen_corner(corners_.size(), -1);
-  for (int lead = 0; lead < static_cast<int>(n); ++lead) {
-    for (int i = first[lead]; i < first[lead + 1]; ++i)
-      for (int j = start_[cubes[i]]; j < start_[cubes[i] + 1]; ++j) {
-        if (seen[list_[j]] == lead) continue;
-        seen[list_[j]] = lead;
-        for (int corner : corners_of_[list_[j]]) {
-          if (seen_corner[corner] == lead) continue;
-          seen_corner[corner] = lead;
-          led_.push_back(corner);
-        }
-      }
-    led_start_.push_back(static_cast<int>(led_.size()));
-  }
-}
-
-void SurfaceGrid::measure_layers()
-{
-  layers_.assign(LED + planes_.size(), {{0.0, 0.0, 0.0}, INFINITY, -INFINITY});
-  layers_[OPEN] = {{0.0, 0.0, 0.0}, -INFINITY, INFINITY};
-  for (size_t t = 0; t < planes_.size(); ++t) {
-    Layer &layer = layers_[LED + t];
-    std::copy_n(planes_[t].normal, 3, layer.normal);
-    for (int j = led_start_[t]; j < led_start_[t + 1]; ++j) {
-      const double h = Vector3d::Map(layer.normal).dot(corner_at_[led_[j]]);
-      layer.lo = std::min(layer.lo, h);
-      layer.hi = std::max(layer.hi, h);
-    }
-  }
-}
-
-/* ----------------------------------------------------------------------
-   By one look at a layer, in vectors. Who may come to triangles that the cube does not know stays, and so
-   does what is not a number
-------------------------------------------------------------------------- */
-
-int SurfaceGrid::keep_passing(const double *x, const double *velocity, const int *cubes, double time,
-                              double margin, int *which, int n) const
-{
-  int stays[BLOCK];
-  const double spare = std::max(0.0, listed_ - margin), most = spare * spare / (time * time);
-  const Layer *layers = layers_.data();
-  const int *lead = lead_.data();
-#pragma GCC ivdep
-  for (int j = 0; j < n; ++j) {
-    const int i = which[j], cube = cubes[i];
-    const double *at = x + 3 * i, *v = velocity + 3 * i;
-    const Layer &layer = layers[cube < 0 ? OPEN : EMPTY + 1 + lead[cube < 0 ? 0 : cube]];
-    const double a = layer.normal[0] * at[0] + layer.normal[1] * at[1] + layer.normal[2] * at[2];
-    const double b = a + time * (layer.normal[0] * v[0] + layer.normal[1] * v[1] + layer.normal[2] * v[2]);
-    const double low = a < b ? a : b, high = a < b ? b : a;
-    const bool passes_by = (low > layer.hi + margin) | (high < layer.lo - margin);
-    const bool knows_all = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most;
-    stays[j] = !(passes_by & knows_all);
-  }
-  int kept = 0;
-  for (int j = 0; j < n; ++j) {
-    which[kept] = which[j];
-    kept += stays[j];
-  }
-  return kept;
 }
 
 /* ----------------------------------------------------------------------
@@ -335,9 +179,10 @@ void SurfaceGrid::find_distances()
 
 /* ---------------------------------------------------------------------- */
 
-bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice)
+bool SurfaceGrid::is_valid_for(const std::vector<SurfaceVertex> &vertices,
+                               const Matrix3d &lattice)
 {
-  if (!is_built() || vertices.size() != built_at_.size() || lattice != lattice_) return false;
+  if (!is_built() || vertices.size() != built_at_.size() || lattice != this->lattice()) return false;
   const double skin_squared = settings_.skin * settings_.skin;
   double most_squared = 0.0;
   for (size_t v = 0; v < vertices.size(); ++v) {
@@ -352,54 +197,8 @@ bool SurfaceGrid::serves(const std::vector<SurfaceVertex> &vertices, const Matri
 void SurfaceGrid::begin(const std::vector<SurfaceVertex> &vertices, double duration, double slack,
                         const Matrix3d &rate)
 {
-  slack_ = slack;
-  most_moves_ = 0.0;
-  const size_t n = corners_.size(), num_vertices = vertices.size();
-  corner_at_.resize(n);
-  corner_velocity_.resize(n);
-  corner_speed_.resize(n);
-  for (size_t c = 0; c < n; ++c) {
-    const MovingPoint &path = vertices[corners_[c].vertex].path;
-    corner_at_[c] = path.origin;
-    corner_velocity_[c] = path.velocity;
-    if (c >= num_vertices) {
-      const auto &l = corners_[c].lattice;
-      const Vector3d images(l[0], l[1], l[2]);
-      corner_at_[c] += lattice_ * images;
-      corner_velocity_[c] += rate * images;
-    }
-    corner_speed_[c] = corner_velocity_[c].norm();
-  }
-
-  for (size_t t = 0; t < planes_.size(); ++t) {
-    Plane &plane = planes_[t];
-    const auto &corner = corners_of_[t];
-    for (int k = 0; k < 3; ++k)
-      if (corner[k] >= static_cast<int>(num_vertices)) {
-        const auto &l = corners_[corner[k]].lattice;
-        const Vector3d images(l[0], l[1], l[2]);
-        triangles_[t].shift[k] = lattice_ * images;
-        triangles_[t].drift[k] = rate * images;
-      }
-    const Vector3d &a = corner_at_[corner[0]], &b = corner_at_[corner[1]], &c = corner_at_[corner[2]];
-    Vector3d normal = (b - a).cross(c - a);
-    const double size = normal.norm();
-    if (size > 0.0) normal /= size;
-    double rise[3], fastest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      rise[k] = normal.dot(corner_velocity_[corner[k]]);
-      fastest = std::max(fastest, corner_speed_[corner[k]]);
-      plane.normal[k] = normal[k];
-      plane.lo[k] = std::min({a[k], b[k], c[k]});
-      plane.hi[k] = std::max({a[k], b[k], c[k]});
-    }
-    plane.offset = -normal.dot(a);
-    plane.moves = duration * fastest + slack;
-    plane.up = duration * std::max({rise[0], rise[1], rise[2]}) + slack;
-    plane.down = duration * std::min({rise[0], rise[1], rise[2]}) - slack;
-    most_moves_ = std::max(most_moves_, plane.moves);
-  }
-  seen_.assign(images_.size(), 0);
+  SurfaceImages::begin(vertices, duration, slack, rate);
+  seen_.assign(images().size(), 0);
   clock_ = 0;
 }
 
@@ -465,7 +264,7 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
 {
   found.clear();
   Range range;
-  const Vector3d beyond = Vector3d::Constant(std::max(0.0, reach + most_moves_ - listed_));
+  const Vector3d beyond = Vector3d::Constant(std::max(0.0, reach + most_moves() - listed_));
   if (!cubes_of(x - beyond, x + beyond, range)) return false;
   collect(range, found, [&](int t) { return comes_within(t, x.data(), reach); });
   return true;
@@ -491,20 +290,7 @@ bool SurfaceGrid::find_along(const Vector3d &x, const Vector3d &end, double tube
   return true;
 }
 
-/* ----------------------------------------------------------------------
-   a segment is at least as far from a triangle as from its plane, and as from the box around it along each
-   axis
-------------------------------------------------------------------------- */
-
-double SurfaceGrid::off_line(int triangle, const double *x, const double *end) const
-{
-  const Plane &p = planes_[triangle];
-  const double a = height(p, x), b = height(p, end);
-  double off = std::max(std::min(a, b), -std::max(a, b));
-  for (int k = 0; k < 3; ++k)
-    off = std::max({off, p.lo[k] - std::max(x[k], end[k]), std::min(x[k], end[k]) - p.hi[k]});
-  return off;
-}
+/* ---------------------------------------------------------------------- */
 
 void SurfaceGrid::load(int cube, Batch &batch) const
 {
@@ -515,7 +301,7 @@ void SurfaceGrid::load(int cube, Batch &batch) const
   for (int k = 0; k < 3; ++k)
     for (auto *array : {&batch.normal[k], &batch.lo[k], &batch.hi[k]}) array->resize(n);
   for (int i = 0; i < n; ++i) {
-    const Plane &p = planes_[batch.triangle[i]];
+    const Plane &p = plane(batch.triangle[i]);
     batch.offset[i] = p.offset;
     for (int k = 0; k < 3; ++k) {
       batch.normal[k][i] = p.normal[k];
@@ -552,10 +338,6 @@ void SurfaceGrid::measure_along(Batch &batch, const double *x, const double *end
 
 double SurfaceGrid::memory_usage() const
 {
-  return away_.capacity() + sizeof(int) * (start_.capacity() + list_.capacity()) +
-      sizeof(SurfaceTriangle) * triangles_.capacity() + sizeof(Plane) * planes_.capacity() +
-      sizeof(Image) * images_.capacity() + sizeof(Vector3d) * built_at_.capacity() +
-      sizeof(int) * (lead_.capacity() + led_start_.capacity() + led_.capacity()) +
-      sizeof(Corner) * corners_.capacity() + sizeof(Layer) * layers_.capacity() +
-      3 * sizeof(int) * corners_of_.capacity() + 7 * sizeof(double) * corner_at_.capacity();
+  return SurfaceImages::memory_usage() + layers_.memory_usage() + away_.capacity() +
+      sizeof(int) * (start_.capacity() + list_.capacity()) + sizeof(Vector3d) * built_at_.capacity();
 }

@@ -20,6 +20,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "mesh_box.h"
 
 #include <algorithm>
 
@@ -32,7 +33,7 @@ static constexpr double ROOM = 0.25;
 
 SRDGrid::SRDGrid(LAMMPS *lmp, double size) :
     Pointers(lmp),
-    wanted(size), n{1, 1, 1}, all{1, 1, 1}, periodic{true, true, true}, whole{true, true, true},
+    wanted(size), n{1, 1, 1}, all{1, 1, 1}, periodic{true, true, true}, spans_box{true, true, true},
     edges{size, size, size}, start{0, 0, 0}, length{0, 0, 0}, corner{0.0, 0.0, 0.0}, inverse{},
     cell_vectors{}, shift{0.0, 0.0, 0.0}, stray_lo{}, stray_hi{}
 {
@@ -116,8 +117,8 @@ void SRDGrid::hold(double reach)
 
   MPI_Allreduce(width, narrowest, 3, MPI_DOUBLE, MPI_MIN, world);
   for (int k = 0; k < 3; ++k) {
-    whole[k] = width[k] > 0.999999;
-    const double more = whole[k] ? 0.5 : std::min(reach * per_length[k], 0.5 * narrowest[k]);
+    spans_box[k] = width[k] > 0.999999;
+    const double more = spans_box[k] ? 0.5 : std::min(reach * per_length[k], 0.5 * narrowest[k]);
     stray_lo[k] = lo[k] - more;
     stray_hi[k] = hi[k] + more;
 
@@ -324,14 +325,13 @@ void SRDGrid::wrap(double *x, imageint &image) const
 {
   double t[3];
   grid_coordinates(x, t);
-  const double *h = domain->h;
-  const double vectors[3][3] = {{h[0], 0.0, 0.0}, {h[5], h[1], 0.0}, {h[4], h[3], h[2]}};
+  const Eigen::Matrix3d box = box_vectors(*domain);
   int boxes[3] = {0, 0, 0};
   for (int k = 0; k < 3; ++k) {
     const double s = t[k] + shift[k];
-    if (!whole[k] || !periodic[k] || (s >= 0.0 && s < n[k])) continue;
+    if (!spans_box[k] || !periodic[k] || (s >= 0.0 && s < n[k])) continue;
     boxes[k] = static_cast<int>(std::floor(s / n[k]));
-    for (int j = 0; j < 3; ++j) x[j] -= boxes[k] * vectors[k][j];
+    for (int j = 0; j < 3; ++j) x[j] -= boxes[k] * box(j, k);
   }
   if (!(boxes[0] || boxes[1] || boxes[2])) return;
   const int ix = static_cast<int>(image & IMGMASK) + boxes[0],

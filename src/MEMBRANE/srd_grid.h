@@ -102,7 +102,7 @@ class SRDGrid : protected Pointers {
  private:
   double wanted;
   int n[3], all[3];             // divisions of the box; cells
-  bool periodic[3], whole[3];    // whole: this rank's sub-domain spans the box
+  bool periodic[3], spans_box[3];    // the latter: this rank's sub-domain does
   double edges[3];
   int start[3], length[3];      // of this rank's cells
   double corner[3], inverse[6], cell_vectors[6], shift[3];

@@ -14,19 +14,17 @@
 #ifndef LMP_SRD_OBSTACLE_H
 #define LMP_SRD_OBSTACLE_H
 
-#include "membrane_srd_approach_list.h"
 #include "membrane_srd_events.h"
-#include "membrane_srd_surface_grid.h"
 #include "membrane_srd_inverse_mask.h"
-#include "srd_cells.h"
-#include "srd_solvent.h"
-#include "srd_streaming.h"
-#include "srd_surface_motion.h"
+#include "srd_impulse_exchange.h"
+#include "srd_meetings.h"
 #include "srd_regions.h"
+#include "srd_rescue.h"
+#include "srd_surface_in_cells.h"
+#include "srd_surface_motion.h"
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -39,7 +37,7 @@ class SurfaceObstacle : protected Pointers {
  public:
   struct Settings {
     int membranes = 0;          ///< their group
-    int level = 0;              ///< of the surface, see SurfaceMotion
+    int level = 0;              ///< of the surface, see SRDSurface
     uint64_t seed = 0;          ///< of all random numbers
     bool no_slip = false;
     bool control = false;       ///< impulses act on control points
@@ -52,27 +50,21 @@ class SurfaceObstacle : protected Pointers {
 
   SurfaceMotion motion;
   SurfaceRegions regions;
-  bool forces_on_solvent = false;    ///< and atom->f has them
+  SurfaceMeetings meetings;
 
   // === Life cycle; all collective
 
   void init();
   /// From setup(): finds the region of each solvent atom.
-  void setup(const SRDSolvent &);
+  void setup(const class SRDSolvent &);
   /// From post_integrate(), after control points have moved for the time dt.
   void begin_step(double dt) { motion.begin_step(dt); }
-  /// Solvent moves for the time dt, the step or the next part of it. horizon: from now on its velocities
-  /// last so long, but for what it meets and kicks.
-  void stream(const SRDSolvent &, SRDStreaming &, double dt, double horizon);
-  /// Call when solvent has other velocities, or places, or numbers: then its way is looked at anew.
-  void forget() { approaching.clear(); }
-  /// Forces have changed velocities by up to this.
-  void kicked(double change) { approaching.bend(change); }
-  /** Around a collision in cells between two parts of a step, if the surface does not slip: the point
-      masses take part in it, each with the solvent on one of its sides, drawn anew for each step; what
-      is held, with thermal velocities of kT. */
-  void join_cells(SRDCells &cells, bigint step, double kT);
-  void leave_cells(SRDCells &cells);
+  /// Solvent moves, for the step or the next part of it.
+  void stream(const SRDFlight &);
+  /// Around a collision in cells between two parts of a step, if the surface does not slip: the point
+  /// masses take part in it; what is held, with thermal velocities of kT.
+  void join_cells(class SRDCells &cells, bigint step, double kT) { in_cells.join(cells, step, kT); }
+  void leave_cells(SRDCells &cells) { in_cells.leave(cells, tally + HANDED); }
   /// From final_integrate().
   void remember() { motion.remember(); }
   /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
@@ -95,47 +87,14 @@ class SurfaceObstacle : protected Pointers {
  private:
   Settings settings;
   Membrane_NS::CollisionEvents events;
-  Membrane_NS::SurfaceGrid grid;
   std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
-  bigint built_epoch;
-  bool everywhere;             // impulses act far from where they are, too
-  std::vector<char> shared;    // if not: vertices that atoms of several ranks may touch
-  Membrane_NS::ApproachList approaching;    // of local atoms
-  struct Near {                // an atom that may meet triangles in this step, and does if turned
-    int atom;
-    Membrane_NS::MovingPoint path;
-    bool turned;
-  };
-  std::vector<Near> near;
-  std::vector<char> apart;     // with walls, by local atom: it is near; then: it turned there
-  std::vector<int> found, turned_by_walls;
-  double speed;                // of this rank's solvent, root mean square, when the grid was built
-  double vertex_slack, point_slack;
+  ImpulseExchange impulses;
+  SurfaceInCells in_cells;
+  SurfaceRescue rescue;
 
-  const std::vector<Membrane_NS::SurfaceVertex> *vertices;
-  Membrane_NS::VertexField joined;    // velocities of owned point masses as they joined
-  std::vector<Membrane_NS::SurfaceImpulse> told, from_outside;    // by all ranks; by others
-
-  struct Flight {              // what stream() does
-    const SRDSolvent &solvent;
-    SRDStreaming &streaming;
-    double dt, horizon;
-  };
-  void build_grid(const Flight &);
-  void find_shared();
-  bool gather(const Flight &);
-  void list_approaching(const Flight &);
-  bool find_and_note(int atom, const Flight &);
-  void note(int atom, const std::vector<int> &triangles, const Flight &);
-  void run(const Flight &);
-  double most_slack() const;
-  bool exchange();
-  void move(const Flight &);
-  void finish(const Flight &);
+  void run(const SRDFlight &);
+  void finish(const SRDFlight &);
   [[noreturn]] void report_escape();
-  Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &, Eigen::Vector3d &normal);
-  bool rescue(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest,
-              const Eigen::Vector3d &normal);
 };
 
 }    // namespace LAMMPS_NS

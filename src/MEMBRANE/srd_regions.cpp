@@ -19,11 +19,11 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_tessellation.h"
 #include "memory.h"
+#include "mesh_box.h"
 #include "srd_solvent.h"
 
 #include <algorithm>
@@ -63,16 +63,17 @@ void SurfaceRegions::locate()
   points.reserve(vertices.size());
   for (const auto &v : vertices) points.push_back(to_fraction * v.path.origin);
 
-  auto &mesh = motion.mesh();
+  const DistributedMesh &mesh = motion.mesh();
+  const SRDSurface &surface = motion.surface();
   const auto &topology = mesh.topology();
   const auto continues = continuing_directions(topology, mesh.triangle_mesh());
-  const auto &components = motion.components();
+  const auto &components = surface.components();
   num_surfaces = static_cast<int>(components.size());
   surface_of.assign(topology.num_components(), -1);
   sides.assign(topology.num_components(), {});
   std::vector<std::vector<Face>> faces(topology.num_components());
-  for (size_t f = 0; f < motion.surface().faces.size(); ++f)
-    faces[motion.component(f)].push_back(motion.surface().faces[f]);
+  for (size_t f = 0; f < surface.faces().faces.size(); ++f)
+    faces[surface.component(f)].push_back(surface.faces().faces[f]);
 
   std::fill_n(flip, 3, 0);
   for (int s = 0; s < num_surfaces; ++s) {
@@ -85,7 +86,7 @@ void SurfaceRegions::locate()
                  "{}: membrane {} continues through the box in all three directions: its sides "
                  "cannot be told apart",
                  user, mesh.molecule(c));
-    sides[c] = SurfaceSide(points, faces[c], axis, motion.periodic());
+    sides[c] = SurfaceSide(points, faces[c], axis, periodic_directions(*domain));
     flip[axis] = (flip[axis] + sides[c].degree()) & 1;
   }
 }
@@ -104,7 +105,7 @@ Vector3d SurfaceRegions::fraction(const double *x, imageint image) const
 void SurfaceRegions::assign(const SRDSolvent &solvent)
 {
   locate();
-  const auto &components = motion.components();
+  const auto &components = motion.surface().components();
 
   // the sets of levels that occur here, then everywhere
 
@@ -157,7 +158,7 @@ void SurfaceRegions::assign(const SRDSolvent &solvent)
 bool SurfaceRegions::belongs(const double *x, imageint image, int r) const
 {
   const Vector3d s = fraction(x, image);
-  for (int c : motion.components())
+  for (int c : motion.surface().components())
     if (sides[c].level(s) != levels[r * num_surfaces + surface_of[c]]) return false;
   return true;
 }
@@ -169,7 +170,7 @@ std::vector<SurfaceRegions::Crossing> SurfaceRegions::find_crossings(const SRDSo
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!solvent.has(i)) continue;
     const Vector3d x = fraction(atom->x[i], atom->image[i]);
-    for (int c : motion.components()) {
+    for (int c : motion.surface().components()) {
       const int level = levels[region[i] * num_surfaces + surface_of[c]];
       if (sides[c].level(x) == level) continue;
       crossings.push_back({i, c, level});

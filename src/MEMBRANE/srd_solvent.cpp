@@ -18,7 +18,12 @@
 #include "srd_solvent.h"
 
 #include "atom.h"
+#include "force.h"
 #include "group.h"
+#include "membrane_srd.h"
+
+#include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -44,6 +49,59 @@ void SRDSolvent::refresh()
   by_type.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; ++i) by_type[i] = atom->mass[atom->type[i]];
   masses = by_type.data();
+}
+
+/* ----------------------------------------------------------------------
+   Maxwell's distribution less its momentum, then scaled to the temperature
+------------------------------------------------------------------------- */
+
+void SRDSolvent::draw_velocities(uint64_t seed, bigint step, double kT) const
+{
+  double **v = atom->v;
+  for (int i = begin; i < end; ++i)
+    if (has(i))
+      Membrane_NS::thermal_velocity(seed, step, atom->tag[i], kT, masses[i], v[i]);
+  double p[4];
+  momentum(p);
+  double mine = 0.0, twice_energy;
+  for (int i = begin; i < end; ++i) {
+    if (!has(i)) continue;
+    for (int k = 0; k < 3; ++k) {
+      v[i][k] -= p[k] / p[3];
+      mine += masses[i] * v[i][k] * v[i][k];
+    }
+  }
+  MPI_Allreduce(&mine, &twice_energy, 1, MPI_DOUBLE, MPI_SUM, world);
+  const bigint count_all = total();
+  if (count_all < 2) return;
+  const double scale = std::sqrt(3.0 * (count_all - 1) * kT / twice_energy);
+  for (int i = begin; i < end; ++i)
+    if (has(i))
+      for (int k = 0; k < 3; ++k) v[i][k] *= scale;
+}
+
+double SRDSolvent::kick(double time) const
+{
+  const double factor = time * force->ftm2v;
+  double most = 0.0;
+  for (int i = begin; i < end; ++i) {
+    if (!has(i)) continue;
+    const double scale = factor / masses[i];
+    double squared = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double change = scale * atom->f[i][k];
+      atom->v[i][k] += change;
+      squared += change * change;
+    }
+    most = MAX(most, squared);
+  }
+  return std::sqrt(most);
+}
+
+void SRDSolvent::zero_forces() const
+{
+  for (int i = begin; i < end; ++i)
+    if (has(i)) std::fill_n(atom->f[i], 3, 0.0);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -16,11 +16,12 @@
 
 #include "pointers.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-/// Which owned atoms are solvent, and their masses.
+/// Which owned atoms are solvent, their masses, and what is done to them all.
 class SRDSolvent : protected Pointers {
  public:
   SRDSolvent(class LAMMPS *, int igroup);
@@ -37,6 +38,15 @@ class SRDSolvent : protected Pointers {
   int count() const { return mine; }
   /// Mass of owned atom i, by index.
   const double *mass() const { return masses; }
+
+  // === Velocities and forces
+
+  /// Collective: velocities drawn from Maxwell's distribution of kT (mass times velocity squared), less their
+  /// momentum, then scaled to the temperature.
+  void draw_velocities(uint64_t seed, bigint step, double kT) const;
+  /// Forces act for a time; returns by how much they have changed a velocity of this rank at most.
+  double kick(double time) const;
+  void zero_forces() const;
 
   // === Sums over all ranks; collective
 

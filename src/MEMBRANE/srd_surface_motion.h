@@ -15,10 +15,12 @@
 #define LMP_SRD_SURFACE_MOTION_H
 
 #include "membrane_limit_mask.h"
-#include "membrane_srd_events.h"
-#include "membrane_srd_surface_grid.h"
-#include "membrane_srd_corners.h"
+#include "membrane_srd_surface.h"
+#include "mesh_box.h"
 #include "mesh_group.h"
+#include "mesh_local.h"
+#include "srd_surface.h"
+#include "srd_surface_movers.h"
 
 #include <array>
 #include <memory>
@@ -27,16 +29,16 @@
 
 namespace LAMMPS_NS {
 
-/** The limit positions of the control points of a group of membranes as moving point masses, and the
-    surface that they span: where they are and go in a step, for all ranks, and what impulses on them
-    do to the control points.
+/** The limit positions of the control points of a group of membranes as moving point masses: where they, and
+    the surface that they span, are and go in a step, for all ranks, and what impulses on them do to the
+    control points.
 
-    Masses are those of the whole mesh, and vertices are these masses, or the corners of a finer surface, the
-    first of which they are. Positions are unwrapped and, surface by surface, in one
-    piece, as DistributedMesh::unwrapped() has them. Vertices of other groups stay unset. */
+    Masses are those of the whole mesh; the vertices of the surface are these, and after them the corners of a
+    finer one. Positions are unwrapped and, component by component, in one piece, as
+    DistributedMesh::unwrapped() has them. Vertices of other groups stay unset. */
 class SurfaceMotion : protected Pointers {
  public:
-  /// The surface is that of SurfaceCorners with faces cut in 2^level x 2^level. `user` is named in errors.
+  /// `level` is that of SRDSurface; `user` is named in errors.
   SurfaceMotion(class LAMMPS *, int igroup, int level, std::string user);
 
   // === Life cycle
@@ -49,26 +51,14 @@ class SurfaceMotion : protected Pointers {
   /// Collective; call when all positions of a step are final, before the next step moves them.
   void remember();
 
-  // === The surface
+  // === What moves
 
-  const Membrane_NS::SurfaceFaces &surface() const { return faces; }
-  /// Of level 1 and above; else null.
-  const Membrane_NS::SurfaceCorners *corners() const { return finer.get(); }
-  /// The component of the mesh that a face of surface() is part of; components without faces here
-  /// belong to other groups.
-  int component(int face) const { return face_component[face]; }
-  /// Components of the group.
-  const std::vector<int> &components() const { return group_components; }
-  DistributedMesh &mesh() { return points.mesh(); }
-  /// Mean length of an edge of the mesh at setup().
-  double edge() const { return mean_edge; }
-  /// And of the surface.
-  double surface_edge() const { return mean_edge / (1 << level); }
+  DistributedMesh &mesh() const { return *held; }
+  const SRDSurface &surface() const { return shape; }
   /// The box vectors as columns, and the rate at which they change for images, which in a box whose
   /// deformation does not move atoms along have other velocities.
-  Eigen::Matrix3d lattice() const;
-  Eigen::Matrix3d lattice_rate() const;
-  std::array<bool, 3> periodic() const;
+  Eigen::Matrix3d lattice() const { return box_vectors(*domain); }
+  Eigen::Matrix3d lattice_rate() const { return movers.lattice_rate(); }
 
   // === A step
 
@@ -77,9 +67,9 @@ class SurfaceMotion : protected Pointers {
   void begin_step(double dt);
   void pass(double duration) { ahead -= duration; }
   /// The box vectors now, in the course of the step.
-  Eigen::Matrix3d lattice_now() const { return lattice() + (whole - ahead) * lattice_rate(); }
+  Eigen::Matrix3d lattice_now() const { return lattice() + (step - ahead) * lattice_rate(); }
   /// When from now the middle of the step is.
-  double middle() const { return ahead - 0.5 * whole; }
+  double middle() const { return ahead - 0.5 * step; }
   /// Collective: paths of all vertices from now on, and accelerations.
   const std::vector<Membrane_NS::SurfaceVertex> &paths();
   /// Collective: vertices at rest where they are at the end of the step.
@@ -88,15 +78,13 @@ class SurfaceMotion : protected Pointers {
   const std::vector<Membrane_NS::SurfaceVertex> &current() const { return vertices; }
   /// The rank that owns a mass, as of the last paths() or places().
   int owner(int vertex) const { return owner_of[vertex]; }
-  /// Changes when vertices have new owners.
-  bigint epoch() { return mesh().epoch(); }
   /// Collective: limit positions and velocities of the owned vertices, in the order of part().
   void masses_now(Membrane_NS::VertexField &position, Membrane_NS::VertexField &velocity);
   /// Collective: changes of the masses' velocities now, in the order of part(), reach the control
   /// points.
   void apply(const Membrane_NS::VertexField &change);
   /// Collective: changes of velocity and position now of the owned vertices, by vertex, do.
-  void apply(const std::vector<Membrane_NS::CollisionEvents::Change> &changes);
+  void apply(const std::vector<Membrane_NS::SurfaceChange> &changes);
 
   /// Owned vertices in the order of their atoms.
   MeshPart &part() { return points.part(); }
@@ -107,41 +95,29 @@ class SurfaceMotion : protected Pointers {
 
  private:
   std::string user;
-  int igroup, groupbit, level;
+  int groupbit;
+  LocalMesh held;
   MeshGroup points;
   std::unique_ptr<Membrane_NS::LimitMask> mask;
-  std::unique_ptr<Membrane_NS::SurfaceCorners> finer;
-  std::vector<Membrane_NS::Face> finer_faces;    // what it was made for
-  Membrane_NS::SurfaceCorners::Seams finer_seams;
-  std::vector<class FixHDBase *> integrators;
-  Membrane_NS::SurfaceFaces faces;
-  std::vector<int> face_component, group_components;
+  SurfaceMovers movers;
+  SRDSurface shape;
   std::vector<Membrane_NS::SurfaceVertex> vertices;
   std::vector<double> masses, inverse_masses;
   std::vector<int> owner_of;
-  double mean_edge;
 
-  std::vector<std::array<int, 3>> offset;    // in box vectors, from unmapped atoms to one piece
-  std::vector<std::array<int, 3>> ring_seam;    // sum over a vertex's ring of box vectors to its images
   bool any_fixed;    // some vertices do not yield to impulses
   Membrane_NS::VertexField remembered;    // if so: x of the last step, and the box then
   Eigen::Matrix3d remembered_box;
   Eigen::Vector3d remembered_corner;
-  bool remapped;                          // fix deform changes positions along with the box
-  bigint shared_epoch;
   std::vector<int> atom_vertex;    // place in part() of local atoms, or -1
   std::vector<int> counts, starts, listed;    // all ranks' owned vertices
   std::vector<double> mine, all;
-  double whole, ahead;                      // the step, and time left of it
+  double step, ahead;                       // its duration, and time left of it
   Membrane_NS::VertexField drift;           // velocities of owned control points in it
   Membrane_NS::VertexField velocity;        // of owned masses for the rest of it
   Membrane_NS::VertexField acceleration;
   Membrane_NS::VertexField q, moved, r, detour;
 
-  void check_movers();
-  void find_box_movers();
-  bool images_move() const;
-  void find_components();
   void find_masses();
   void follow_points();
   void refresh();
@@ -149,8 +125,6 @@ class SurfaceMotion : protected Pointers {
   void load_displacements();
   void load_accelerations();
   void share(int width);
-  void make_surface(const Membrane_NS::TriangleMesh &whole);
-  void place_corners();
   void check_frames();
   void change_velocities();
 };

@@ -196,7 +196,7 @@ struct Gas {
   void stream(const SurfaceSide &where, int axis = 2)
   {
     const SurfaceGrid::Settings settings{thickness, 3.0 * time_step + thickness, 2.0 * thickness};
-    if (!grid.serves(vertices, mesh.lattice)) {
+    if (!grid.is_valid_for(vertices, mesh.lattice)) {
       build(settings);
       list.clear();
     }
@@ -208,7 +208,7 @@ struct Gas {
       grid.begin(vertices, time_step, slack);
       events.begin(vertices, grid.triangles(), time_step, slack);
       near.clear();
-      if (!list.serves(grid, vertices, time_step)) {
+      if (!list.is_valid_for(grid, vertices, time_step)) {
         list.begin(grid, vertices, points.size(), HORIZON * time_step, time_step, 2.0 * more);
         offer_all(list, grid, points);
         list.end(grid);
@@ -668,7 +668,7 @@ TEST(SurfaceGrid, CubesKnowAllTrianglesWithinTheirReach)
   for (double spacing : {0.1, 0.17, 0.5}) {
     gas.build({skin, reach, spacing});
     for (SurfaceVertex &v : gas.vertices) v.path.origin += 0.99 * skin * random.vector(1.0).normalized();
-    ASSERT_TRUE(gas.grid.serves(gas.vertices, mesh.lattice));
+    ASSERT_TRUE(gas.grid.is_valid_for(gas.vertices, mesh.lattice));
     gas.grid.begin(gas.vertices, 0.0, 0.0);
     std::vector<int> found;
     int num_found = 0, missing = 0;
@@ -713,12 +713,12 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   for (int step = 0; step < steps; ++step) {
     gas.shake(0.3, random);
     for (SurfaceVertex &v : gas.vertices) v.path.velocity[0] += 0.5;
-    if (!gas.grid.serves(gas.vertices, mesh.lattice)) {
+    if (!gas.grid.is_valid_for(gas.vertices, mesh.lattice)) {
       gas.build({0.15, 0.1, 0.2});
       list.clear();
     }
     gas.grid.begin(gas.vertices, dt, 0.002);
-    if (!list.serves(gas.grid, gas.vertices, dt)) {
+    if (!list.is_valid_for(gas.grid, gas.vertices, dt)) {
       list.begin(gas.grid, gas.vertices, gas.points.size(), horizon * dt, dt, 0.01);
       offer_all(list, gas.grid, gas.points);
       list.end(gas.grid);
@@ -811,9 +811,9 @@ struct Sheet {
       if (!grid.is_built())    // cubes from z = -1.995 on, of 0.2
         grid.build(surface, vertices, lattice, {false, false, false}, Vector3d(-2, -2, -1.995),
                    Vector3d(2, 2, 2), {0.1, 0.1, 0.2});
-      ASSERT_TRUE(grid.serves(vertices, lattice));
+      ASSERT_TRUE(grid.is_valid_for(vertices, lattice));
       grid.begin(vertices, DT, 1.0e-6);
-      if (!list.serves(grid, vertices, DT)) {
+      if (!list.is_valid_for(grid, vertices, DT)) {
         list.begin(grid, vertices, 1, horizon * DT, DT, 0.0);
         offer_all(list, grid, {point});
         list.end(grid);

@@ -1,0 +1,128 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "srd_rescue.h"
+
+#include "atom.h"
+#include "membrane_random.h"
+#include "membrane_srd_collision.h"
+#include "srd_solvent.h"
+#include "srd_surface_motion.h"
+#include "update.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+
+/* ---------------------------------------------------------------------- */
+
+SurfaceRescue::SurfaceRescue(LAMMPS *lmp, SurfaceMotion &motion, SurfaceRegions &regions) :
+    Pointers(lmp), motion(motion), regions(regions)
+{
+}
+
+SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double contact)
+{
+  Counts counts;
+  for (const auto &crossing : regions.find_crossings(solvent)) {
+    Vector3d normal;
+    const Vector3d nearest = nearest_point(crossing, normal);
+    const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
+    if ((x - nearest).norm() <= contact) continue;
+    ++counts.crossed;
+    if (put_beside(crossing, nearest, normal) || put_anywhere(crossing)) ++counts.rescued;
+  }
+  return counts;
+}
+
+// the point of a surface nearest to an atom, in the image nearest to it, and the normal there
+
+Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing, Vector3d &normal) const
+{
+  const auto &surface = motion.surface().faces();
+  const auto &places = motion.current();
+  const Eigen::Matrix3d box = motion.lattice(), to_fraction = box.inverse();
+  const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
+  Vector3d nearest = x;
+  double least = INFINITY;
+  for (size_t f = 0; f < surface.faces.size(); ++f) {
+    if (motion.surface().component(f) != crossing.component) continue;
+    std::array<Vector3d, 3> corner;
+    for (int k = 0; k < 3; ++k) {
+      const auto &seam = surface.seams[f][k];
+      corner[k] = places[surface.faces[f][k]].path.origin + box * Vector3d(seam[0], seam[1], seam[2]);
+    }
+    Vector3d images = to_fraction * (x - corner[0]);
+    for (int k = 0; k < 3; ++k) images[k] = domain->periodicity[k] ? std::round(images[k]) : 0.0;
+    for (Vector3d &c : corner) c += box * images;
+    const auto b = Membrane_NS::nearest_on_triangle(x, corner[0], corner[1], corner[2]);
+    const Vector3d p = b[0] * corner[0] + b[1] * corner[1] + b[2] * corner[2];
+    if ((p - x).squaredNorm() >= least) continue;
+    least = (p - x).squaredNorm();
+    nearest = p;
+    normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  }
+  return nearest;
+}
+
+/* ----------------------------------------------------------------------
+   on its own side, close to where it crossed, heading away from the surface
+------------------------------------------------------------------------- */
+
+bool SurfaceRescue::put_beside(const SurfaceRegions::Crossing &crossing, const Vector3d &nearest,
+                               const Vector3d &normal)
+{
+  const int i = crossing.atom, region = regions.region[i];
+  Vector3d x;
+  for (double distance = 1.0e-6; distance < 0.5; distance *= 10.0)
+    for (double sign : {1.0, -1.0}) {
+      x = nearest + sign * distance * motion.surface().mesh_edge() * normal;
+      if (!regions.belongs(x.data(), atom->image[i], region)) continue;
+      Vector3d::Map(atom->x[i]) = x;
+      const double speed = sign * Vector3d::Map(atom->v[i]).dot(normal);
+      if (speed < 0.0) Vector3d::Map(atom->v[i]) -= 2.0 * sign * speed * normal;
+      return true;
+    }
+  return false;
+}
+
+bool SurfaceRescue::put_anywhere(const SurfaceRegions::Crossing &crossing)
+{
+  const int i = crossing.atom;
+  Vector3d x;
+  constexpr int TRIALS = 1000;
+  const Membrane_NS::CounterRandom random(atom->tag[i], update->ntimestep);
+  for (int trial = 0; trial < TRIALS; ++trial) {
+    const auto a = random.uniforms(trial, 0), b = random.uniforms(trial, 1);
+    const double s[3] = {a[0], a[1], b[0]};
+    if (domain->triclinic) {
+      double lamda[3];
+      for (int k = 0; k < 3; ++k)
+        lamda[k] = domain->sublo_lamda[k] + s[k] * (domain->subhi_lamda[k] - domain->sublo_lamda[k]);
+      domain->lamda2x(lamda, x.data());
+    } else
+      for (int k = 0; k < 3; ++k)
+        x[k] = domain->sublo[k] + s[k] * (domain->subhi[k] - domain->sublo[k]);
+    if (!regions.belongs(x.data(), atom->image[i], regions.region[i])) continue;
+    Vector3d::Map(atom->x[i]) = x;
+    return true;
+  }
+  return false;
+}

@@ -1,0 +1,86 @@
+"""The house of design.md, section 2: two storeys, rooms one can read at a sitting, no circles."""
+
+import glob
+import os
+import re
+
+from lammps_claims import claim, finish
+
+TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+FOLDER = os.path.join(TOP, "src", "MEMBRANE")
+MOST_LINES = 500
+
+
+def read(path):
+    with open(path) as file:
+        return file.read()
+
+
+def room_of(name):
+    return os.path.splitext(name)[0]
+
+
+def includes_of(text):
+    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', text, re.M)
+
+
+def circles(graph):
+    """Sets of rooms that reach one another [R. Tarjan, SIAM J. Comput. 1, 146 (1972)]."""
+    number, lowest, stack, found = {}, {}, [], []
+
+    def visit(room):
+        number[room] = lowest[room] = len(number)
+        stack.append(room)
+        for other in graph[room]:
+            if other not in number:
+                visit(other)
+                lowest[room] = min(lowest[room], lowest[other])
+            elif other in stack:
+                lowest[room] = min(lowest[room], number[other])
+        if lowest[room] == number[room]:
+            members = stack[stack.index(room):]
+            del stack[stack.index(room):]
+            if len(members) > 1:
+                found.append(sorted(members))
+
+    for room in sorted(graph):
+        if room not in number:
+            visit(room)
+    return found
+
+
+files = {os.path.basename(path): read(path) for path in glob.glob(os.path.join(FOLDER, "*.[ch]*"))}
+includes = {name: includes_of(text) for name, text in files.items()}
+
+# === Ground floor: plain C++ and Eigen
+
+listed = re.search(r"set\(ground_sources(.*?)\)\n", read(os.path.join(TOP, "CMakeLists.txt")), re.S)
+ground = set(re.findall(r"\S+\.cpp", listed.group(1)))
+ground |= {name for name in files if name.startswith("membrane_") and name.endswith(".h")}
+claim("the ground floor is all there", ground <= set(files), sorted(ground - set(files)))
+unlisted = [name for name in files if name.startswith("membrane_") and name not in ground]
+claim("files named membrane_* are ground floor", not unlisted, unlisted)
+above = [f"{name}: {header}" for name in sorted(ground & set(files)) for header in includes[name]
+         if header not in ground and (header.endswith(".h") or header == "mpi.h")]
+claim("it includes no header of LAMMPS or of the upper floor", not above, above)
+
+# === Rooms: x.h and x.cpp
+
+graph = {room_of(name): set() for name in files}
+for name, headers in includes.items():
+    graph[room_of(name)] |= {room_of(header) for header in headers if header in files} - {room_of(name)}
+claim("no rooms include one another in a circle", not circles(graph), circles(graph))
+long = {name: text.count("\n") for name, text in files.items() if text.count("\n") > MOST_LINES}
+claim(f"no file is longer than {MOST_LINES} lines", not long, long)
+
+# === Styles know no styles
+
+STYLE = re.compile(r"^#ifdef [A-Z_]+_CLASS", re.M)
+styles = {name for name, text in files.items() if STYLE.search(text)}
+known = [f"{name}: {header}" for name in sorted(files) for header in includes[name]
+         if header in styles and room_of(header) != room_of(name)
+         and not re.search(rf"class \w+ : public {re.escape(''.join(p.capitalize() for p in room_of(header).split('_')))}\b",
+                           files[name], re.I)]
+claim("no header of a style is included but by a style that is derived from it", not known, known)
+
+finish()
