@@ -341,7 +341,7 @@ void ComputeHDModes::measure_plane()
 void ComputeHDModes::measure_sphere()
 {
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  totals.measure(groups, model, integrals, true);
+  totals.measure(groups, model, integrals, {true, false});
 
   double my_moments[4] = {0.0, 0.0, 0.0, 0.0}, moments[4];
   for (const FaceGroup &group : groups) sphere_moments(group, x, model, my_moments);

@@ -222,7 +222,7 @@ void ComputeMembraneShape::measure()
   if (changed != MeshChange::NOTHING) localize();
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  totals.measure(groups, model, integrals, true);
+  totals.measure(groups, model, integrals, {true, false});
   for (const FaceGroup &group : groups) curvature_integrals(group, x, model, curvature);
 
   const size_t n = mesh->molecules().size();

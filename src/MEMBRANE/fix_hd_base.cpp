@@ -19,14 +19,13 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "error.h"
-#include "hd_face_watch.h"
 #include "fmt/format.h"
 #include "force.h"
+#include "hd_face_watch.h"
+#include "hd_stiffness_probe.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "hd_stiffness_probe.h"
 #include "update.h"
 
 #include <cmath>
@@ -34,6 +33,8 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+using Membrane_NS::Vector4;
+using Membrane_NS::VertexField;
 
 // a control point that moves further than this fraction of the longest edge in one step is lost
 static constexpr double MOST_DRIFT = 0.25;
@@ -53,8 +54,8 @@ static constexpr int FACES_EVERY = 10;
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
-    moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0), watching(false),
-    faces(std::make_unique<FaceWatch>(lmp, mass.mesh(), groupbit, std::string("Fix ") + style))
+    moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0),
+    watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
   vector_flag = global_freq = 1;
@@ -83,8 +84,10 @@ int FixHDBase::modify_param(int narg, char **arg)
 void FixHDBase::init()
 {
   mass.init();
+  faces->init();
   check_other_integrators();
   most_drift = MOST_DRIFT * mass.mesh().longest_edge();
+  moved_step = -1;
 }
 
 void FixHDBase::check_other_integrators()
@@ -96,10 +99,11 @@ void FixHDBase::check_other_integrators()
       if (atom->mask[i] & groupbit && atom->mask[i] & other->groupbit) mine = 1;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
     if (any)
-      error->all(FLERR,
-                 "Control points of fix {} are also moved by fix {} ({}): use groups without common "
-                 "atoms",
-                 id, other->id, other->style);
+      error->all(
+          FLERR,
+          "Control points of fix {} are also moved by fix {} ({}): use groups without common "
+          "atoms",
+          id, other->id, other->style);
   }
 }
 
@@ -154,7 +158,7 @@ void FixHDBase::pre_force(int)
 
 /* ----------------------------------------------------------------------
    velocity Verlet, and the splittings with friction, are stable up to 2/omega, the overdamped step
-   up to 2/rate; of the largest eigenvalue this takes an estimate from below, so whoever is beyond
+   up to 2/rate; of the largest eigenvalue this takes an estimate from below, so a timestep beyond
    this limit is beyond the true one
 ------------------------------------------------------------------------- */
 
@@ -180,7 +184,8 @@ void FixHDBase::accelerate()
   mass.part().load(atom->f, force_field);
   acceleration.resize(force_field.size());
   mass.matrix().solve(force_field, acceleration);
-  passes = mass.matrix().iterations();
+  passes = mass.matrix().passes();
+  mass.report_missed_tolerance();
 }
 
 double FixHDBase::compute_vector(int i)
@@ -218,13 +223,41 @@ void FixHDBase::drift(double step)
   if (runaway >= 0) report_runaway(atom->tag[runaway]);
   if (!remembers) return;
 
-  if (moved_step != update->ntimestep) moved.assign(part.owned, Membrane_NS::Vector4{});
+  if (moved_step != update->ntimestep) moved.assign(part.owned, Vector4{});
   moved_step = update->ntimestep;
   for (int i = 0; i < part.owned; ++i) {
     const double *v = atom->v[part.atom_of(i)];
     for (int k = 0; k < 3; ++k) moved[i].c[k] += step * v[k];
   }
 }
+
+/* ---------------------------------------------------------------------- */
+
+void FixHDBase::relax(double keep, double kT, bigint seed)
+{
+  mass.part().load(atom->v, velocity);
+  mass.matrix().relax(keep, kT, seed, update->ntimestep, velocity);
+  mass.part().store(velocity, atom->v);
+}
+
+void FixHDBase::relax(const std::vector<double> &keep, double kT, bigint seed)
+{
+  mass.part().load(atom->v, velocity);
+  mass.matrix().relax(keep, kT, seed, update->ntimestep, velocity);
+  mass.part().store(velocity, atom->v);
+}
+
+void FixHDBase::balance(const VertexField &random1, const VertexField &random2)
+{
+  MeshPart &part = mass.part();
+  for (int i = 0; i < part.owned; ++i) {
+    double *v = atom->v[part.atom_of(i)];
+    for (int k = 0; k < 3; ++k)
+      v[k] = force->ftm2v * acceleration[i].c[k] + random1[i].c[k] + random2[i].c[k];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
 
 // on the rank that sees it: others may be anywhere in their step, so nothing can be computed now
 
@@ -235,9 +268,8 @@ void FixHDBase::report_runaway(tagint id_of_point)
     reason =
         fmt::format("timestep {} is beyond the stability limit of about {:.3g}", update->dt, limit);
   else if (limit > 0.0)
-    reason +=
-        fmt::format(", though the stability limit was about {:.3g} when the run began{}", limit,
-                    shape_lost_at(id_of_point));
+    reason += fmt::format(", though the stability limit was about {:.3g} when the run began{}",
+                          limit, shape_lost_at(id_of_point));
   error->one(FLERR,
              "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
              "hd_timestep finds the limit precisely",
@@ -265,14 +297,15 @@ std::string FixHDBase::shape_lost_at(tagint id_of_point)
     longest = MAX(longest, square);
   }
   if (!(longest > SHORT_EDGE * SHORT_EDGE * shortest)) return "";
-  return fmt::format(", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
-                     "{:.3g}; keep it with regularize in pair_coeff",
-                     std::sqrt(shortest), std::sqrt(longest));
+  return fmt::format(
+      ", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
+      "{:.3g}; keep it with regularize in pair_coeff",
+      std::sqrt(shortest), std::sqrt(longest));
 }
 
 double FixHDBase::memory_usage()
 {
   return mass.memory_usage() + faces->memory_usage() +
-      sizeof(Membrane_NS::Vector4) *
-      (force_field.capacity() + acceleration.capacity() + moved.capacity());
+      sizeof(Vector4) *
+      (force_field.capacity() + acceleration.capacity() + velocity.capacity() + moved.capacity());
 }

@@ -18,10 +18,14 @@
 #include "hd_mass.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
-/// What all integrators of control points share: the mass matrix, the checks, and M^-1 f.
+/** What all integrators of control points share: the mass matrix, the checks, and the moves that
+    they are put together from. Integrators change x and v of control points by these alone, so
+    what restricts the motion or adds to it has its place in them and in the mass matrix. */
 class FixHDBase : public Fix {
  public:
   FixHDBase(class LAMMPS *, int, char **);
@@ -34,6 +38,8 @@ class FixHDBase : public Fix {
   /// 0: passes over the mesh of the last M^-1 f; 1: its residual |f - M a|/|f|
   double compute_vector(int) override;
   double memory_usage() override;
+
+  // === What others ask of an integrator
 
   /// The fix of this kind that moves atoms of the group, if any. Collective; stops if there are
   /// several and their matrices differ.
@@ -50,21 +56,29 @@ class FixHDBase : public Fix {
 
  protected:
   HDMass mass;
-  Membrane_NS::VertexField force_field, acceleration, moved;
 
-  /// acceleration = M^-1 f from the atoms' forces.
+  // === Moves of the momenta p = M v and of x. Random numbers are those of the present step
+
+  /// Take the atoms' forces f for what follows: acceleration = M^-1 f.
   void accelerate();
-  /// v += step * acceleration, in LAMMPS' units
+  /// p += step f, which with constant M is v += step M^-1 f
   void kick(double step);
-  /// x += step * v; stops if a control point runs away
+  /// x += step v; stops if a control point runs away
   void drift(double step);
+  /// p = keep p + noise: an exact step of friction and noise, with one number or, if the mass has
+  /// friction per vertex, one per owned vertex.
+  void relax(double keep, double kT, bigint seed);
+  void relax(const std::vector<double> &keep, double kT, bigint seed);
+  /// v = M^-1 f + random1 + random2, where M is a drag matrix: forces and drag balance.
+  void balance(const Membrane_NS::VertexField &random1, const Membrane_NS::VertexField &random2);
 
  private:
+  Membrane_NS::VertexField force_field, acceleration, velocity, moved;
   double most_drift;
   bigint moved_step;    // of which step `moved` is
   int passes;           // of the last accelerate()
   bool remembers, check, limit_due;
-  double limit;    // of stability, for the timestep, as of some step of late; 0 if not known
+  double limit;    // of stability for the timestep, when a run last began; 0 if not known
   bool watching;
   std::unique_ptr<class FaceWatch> faces;
 

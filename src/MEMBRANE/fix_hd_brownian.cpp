@@ -31,8 +31,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
-    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1),
-    numbering(-1)
+    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1), numbering(-1)
 {
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
   temperature = utils::numeric(FLERR, arg[3], false, lmp);
@@ -90,11 +89,10 @@ void FixHDBrownian::reset_dt()
 void FixHDBrownian::initial_integrate(int)
 {
   accelerate();
-  MeshPart &part = mass.part();
   const double kT = force->boltz * temperature / force->mvv2e;
   const bigint step = update->ntimestep;
-  noise.resize(part.size());
-  next_noise.resize(part.size());
+  noise.resize(mass.part().size());
+  next_noise.resize(mass.part().size());
   if (next_step == step && numbering == mass.numbering())
     std::swap(noise, next_noise);
   else
@@ -105,11 +103,7 @@ void FixHDBrownian::initial_integrate(int)
 
   // gamma_t is mass over time, as in fix brownian
 
-  for (int i = 0; i < part.owned; ++i) {
-    double *v = atom->v[part.atom_of(i)];
-    for (int k = 0; k < 3; ++k)
-      v[k] = force->ftm2v * acceleration[i].c[k] + noise[i].c[k] + next_noise[i].c[k];
-  }
+  balance(noise, next_noise);
   drift(dt);
 }
 

@@ -28,7 +28,6 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using Membrane_NS::MassKind;
 
 /* ---------------------------------------------------------------------- */
 
@@ -46,7 +45,8 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
   damp = utils::numeric(FLERR, arg[5], false, lmp);
   seed = utils::bnumeric(FLERR, arg[6], false, lmp);
   if (t_start < 0.0 || t_stop < 0.0)
-    error->all(FLERR, "Fix hd/langevin temperatures {} and {} must not be negative", arg[3], arg[4]);
+    error->all(FLERR, "Fix hd/langevin temperatures {} and {} must not be negative", arg[3],
+               arg[4]);
   if (damp <= 0.0) error->all(FLERR, "Fix hd/langevin damping time {} must be positive", arg[5]);
   if (seed <= 0) error->all(FLERR, "Fix hd/langevin seed {} must be positive", arg[6]);
 
@@ -73,8 +73,6 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
                  "Unknown fix hd/langevin keyword {}; known are: mass, solver, tol, scale, tally",
                  arg[iarg]);
   }
-  if (scaled && mass.settings.kind == MassKind::CONSISTENT)
-    error->all(FLERR, "Fix hd/langevin scale needs mass vertex or lumped");
 }
 
 int FixHDLangevin::setmask()
@@ -88,6 +86,13 @@ void FixHDLangevin::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix hd/langevin does not work with run_style respa");
   reset_dt();
+}
+
+void FixHDLangevin::setup(int vflag)
+{
+  FixHDBase::setup(vflag);
+  if (scaled && !mass.matrix().has_vertex_friction())
+    error->all(FLERR, "Fix hd/langevin scale needs mass vertex or lumped");
 }
 
 void FixHDLangevin::reset_dt()
@@ -105,7 +110,7 @@ void FixHDLangevin::initial_integrate(int)
 {
   kick(0.5 * dt);
   drift(0.5 * dt);
-  relax();
+  thermalize();
   drift(0.5 * dt);
 }
 
@@ -120,23 +125,21 @@ void FixHDLangevin::final_integrate()
    with <noise noise> = (1 - exp(-2 gamma dt)) kT M^-1
 ------------------------------------------------------------------------- */
 
-void FixHDLangevin::relax()
+void FixHDLangevin::thermalize()
 {
   double done = update->ntimestep - update->beginstep;
   if (done != 0.0) done /= update->endstep - update->beginstep;
   const double kT = force->boltz * (t_start + done * (t_stop - t_start)) / force->mvv2e;
 
-  MeshPart &part = mass.part();
   const double before = tally ? kinetic() : 0.0;
-  part.load(atom->v, velocity);
   if (scaled) {
+    const MeshPart &part = mass.part();
     std::vector<double> keep(part.owned);
     for (int i = 0; i < part.owned; ++i)
       keep[i] = std::exp(-dt / (damp * ratio[atom->type[part.atom_of(i)]]));
-    mass.matrix().relax(keep, kT, seed, update->ntimestep, velocity);
+    relax(keep, kT, seed);
   } else
-    mass.matrix().relax(std::exp(-dt / damp), kT, seed, update->ntimestep, velocity);
-  part.store(velocity, atom->v);
+    relax(std::exp(-dt / damp), kT, seed);
   if (tally) energy += before - kinetic();
 }
 

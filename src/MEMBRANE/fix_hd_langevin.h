@@ -34,6 +34,7 @@ class FixHDLangevin : public FixHDBase {
 
   int setmask() override;
   void init() override;
+  void setup(int) override;
   void initial_integrate(int) override;
   void final_integrate() override;
   void reset_dt() override;
@@ -50,8 +51,7 @@ class FixHDLangevin : public FixHDBase {
   double energy;    // taken out of the membrane so far
   double dt;
 
-  Membrane_NS::VertexField velocity;
-  void relax();
+  void thermalize();
   double kinetic();
 };
 

@@ -18,7 +18,6 @@
 #include "hd_face_watch.h"
 
 #include "atom.h"
-#include "mesh_distributed.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "membrane_regularization.h"
@@ -28,8 +27,8 @@
 
 using namespace LAMMPS_NS;
 
-// a face with less than this A/D is about to turn over, unless it began with little more: then it may
-// fall to a fraction of that
+// a face with less than this A/D is about to turn over, unless it began with little more: then it
+// may fall to a fraction of that
 static constexpr double LEAST_UPRIGHT = 1.0 / 50.0;
 static constexpr double LEAST_FRACTION = 0.25;
 
@@ -37,10 +36,15 @@ static constexpr bigint PATIENCE = 10000;
 
 /* ---------------------------------------------------------------------- */
 
-FaceWatch::FaceWatch(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, std::string user) :
-    Pointers(lmp), patience(PATIENCE), mesh(mesh), groupbit(groupbit), user(std::move(user)),
-    epoch(-1), generation(-1), last_step(-1), bad_since(-1), warned(false)
+FaceWatch::FaceWatch(LAMMPS *lmp, int groupbit, std::string user) :
+    Pointers(lmp), patience(PATIENCE), groupbit(groupbit), user(std::move(user)),
+    mesh(lmp, this->user), judged(false), last_step(-1), bad_since(-1), warned(false)
 {
+}
+
+void FaceWatch::init()
+{
+  if (mesh.init() == MeshChange::TOPOLOGY) judged = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -50,21 +54,21 @@ FaceWatch::FaceWatch(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, std::stri
 
 void FaceWatch::localize()
 {
-  const auto &topology = mesh.topology();
+  const auto &topology = mesh->topology();
   faces.clear();
-  for (int f : mesh.owned_faces()) {
+  for (int f : mesh->owned_faces()) {
     Watched watched;
     watched.face = f;
     bool complete = true;
     for (int k = 0; k < 3; ++k) {
-      watched.corner[k] = k == 0 ? atom->map(mesh.tag(topology.face(f)[0]))
-                                 : mesh.find_neighbor(watched.corner[0], topology.face(f)[k]);
+      watched.corner[k] = k == 0 ? atom->map(mesh->tag(topology.face(f)[0]))
+                                 : mesh->find_neighbor(watched.corner[0], topology.face(f)[k]);
       if (k == 0 && !(atom->mask[watched.corner[0]] & groupbit)) complete = false;
       complete = complete && watched.corner[k] >= 0;
       if (!complete) break;
     }
     for (int k = 0; complete && k < 3; ++k) {
-      watched.across[k] = mesh.find_neighbor(watched.corner[k], topology.opposite(f, k));
+      watched.across[k] = mesh->find_neighbor(watched.corner[k], topology.opposite(f, k));
       complete = watched.across[k] >= 0;
     }
     if (complete) faces.push_back(watched);
@@ -84,23 +88,21 @@ double FaceWatch::uprightness(const Watched &watched) const
 
 void FaceWatch::begin()
 {
-  mesh.refresh();
-  epoch = mesh.epoch();
+  mesh.follow();
   localize();
-  const bool continues = update->ntimestep == last_step && mesh.generation() == generation;
-  if (!continues) judge_start();
-  generation = mesh.generation();
+  if (!judged || update->ntimestep != last_step) judge_start();
   last_step = update->ntimestep;
 }
 
 void FaceWatch::judge_start()
 {
+  judged = true;
   bad_since = -1;
   warned = false;
 
   // all ranks know all faces, since faces move between ranks
 
-  std::vector<double> mine(mesh.topology().num_faces(), -INFINITY);
+  std::vector<double> mine(mesh->topology().num_faces(), -INFINITY);
   for (const Watched &watched : faces) {
     const double now = uprightness(watched);
     if (now > 0.0) mine[watched.face] = MIN(LEAST_UPRIGHT, LEAST_FRACTION * now);
@@ -113,11 +115,7 @@ void FaceWatch::check(bool due)
 {
   last_step = update->ntimestep;
   if (!due) return;
-  mesh.refresh();
-  if (epoch != mesh.epoch()) {
-    epoch = mesh.epoch();
-    localize();
-  }
+  if (mesh.follow() != MeshChange::NOTHING) localize();
 
   const Watched *worst = nullptr;
   double least_upright = 0.0;
@@ -138,7 +136,7 @@ void FaceWatch::check(bool due)
   const std::string what = fmt::format(
       "{}: {} {}, as happens to the mesh of a fluid membrane: keep it in shape with regularize in "
       "pair_coeff, or use a smaller timestep",
-      user, mesh.face_name(worst->face),
+      user, mesh->face_name(worst->face),
       least_upright > 0.0 ? fmt::format("collapses (distortion {:.3g})", 1.0 / least_upright - 1.0)
                           : "has turned over");
   if (stop) error->one(FLERR, what);

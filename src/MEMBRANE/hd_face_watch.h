@@ -14,7 +14,7 @@
 #ifndef LMP_HD_FACE_WATCH_H
 #define LMP_HD_FACE_WATCH_H
 
-#include "pointers.h"
+#include "mesh_local.h"
 
 #include <string>
 #include <vector>
@@ -28,11 +28,13 @@ namespace LAMMPS_NS {
 class FaceWatch : protected Pointers {
  public:
   /// `user` is named in the error.
-  FaceWatch(class LAMMPS *, class DistributedMesh &, int groupbit, std::string user);
+  FaceWatch(class LAMMPS *, int groupbit, std::string user);
 
   /// Steps for which a run goes on while there is such a face.
   bigint patience;
 
+  /// Collective; call from init().
+  void init();
   /// Collective; at the start of a run, when coordinates of ghosts are those of this step. A run
   /// that continues the last one goes by the start of that.
   void begin();
@@ -48,11 +50,10 @@ class FaceWatch : protected Pointers {
     int corner[3], across[3];
   };
 
-  class DistributedMesh &mesh;
   int groupbit;
   std::string user;
-  bigint epoch;
-  int generation;      // of the topology that least is for
+  LocalMesh mesh;
+  bool judged;         // the faces of this topology: `least` is theirs
   bigint last_step;    // of the last check
   bigint bad_since;    // when faces of this rank became bad, or -1
   bool warned;

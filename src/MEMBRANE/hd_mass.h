@@ -14,7 +14,8 @@
 #ifndef LMP_HD_MASS_H
 #define LMP_HD_MASS_H
 
-#include "mesh_part.h"
+#include "membrane_mass.h"
+#include "mesh_group.h"
 
 #include <memory>
 #include <string>
@@ -29,41 +30,48 @@ class HDMass : protected Pointers {
   /// `user` is named in errors.
   HDMass(class LAMMPS *, int igroup, std::string user);
 
-  Membrane_NS::MassOperator::Settings settings;
+  // === Settings, before init()
 
-  /// One of the keywords mass, solver, tol; returns the number of words it took, 0 if none of them.
+  Membrane_NS::MassOperator::Settings settings;
+  /// One of the keywords mass, solver, tol: how many words it took; 0 if it is another keyword.
   int parse(int iarg, int narg, char **arg);
   /// Use this number for all vertices instead of the atoms' masses: a matrix of drag coefficients.
   void set_drag(double coefficient) { drag = coefficient; }
   /// That number, or 0 for masses.
   double drag_coefficient() const { return drag; }
-  /// Collective; call from init(). The group must hold whole membranes and nothing else, unless
-  /// other_atoms; masses must be positive.
+
+  // === Life cycle
+
+  /// Collective; call from init(). The group must hold all control points of its membranes and,
+  /// unless other_atoms, nothing else; masses must be positive.
   void init(bool other_atoms = false);
   /// Collective; call before using part() or matrix() in a time step.
   void refresh();
+  /// Collective: warn, once a run, if a solution has missed the tolerance.
+  void report_missed_tolerance();
 
-  class DistributedMesh &mesh() { return *surface; }
-  MeshPart &part() { return *vertices; }
+  // === The control points and their matrix
+
+  DistributedMesh &mesh() { return points.mesh(); }
+  MeshPart &part() { return points.part(); }
   Membrane_NS::MassOperator &matrix() { return *mass; }
   /// Differs after a refresh() that numbered the vertices of the part anew.
-  bigint numbering() const { return renumbered; }
+  bigint numbering() const { return points.numbering(); }
   /// Control points of the group, on all ranks.
-  bigint count() const { return npoints; }
+  bigint count() const { return points.count(); }
   /// v^T M v of the atoms' velocities, xx yy zz xy xz yz; summed over ranks.
   void kinetic(double *);
   double memory_usage() const { return mass ? mass->memory_usage() : 0.0; }
 
  private:
-  int igroup, groupbit;
+  int groupbit;
   std::string user;
-  class DistributedMesh *surface;
-  std::unique_ptr<MeshPart> vertices;
+  MeshGroup points;
   std::unique_ptr<Membrane_NS::MassOperator> mass;
-  bigint epoch, renumbered, npoints;
   double drag;
+  bool reported;    // a missed tolerance, in this run
 
-  void check_group(bool other_atoms);
+  void check_masses();
 };
 
 }    // namespace LAMMPS_NS

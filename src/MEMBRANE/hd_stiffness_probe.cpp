@@ -22,7 +22,6 @@
 #include "bond.h"
 #include "comm.h"
 #include "dihedral.h"
-#include "mesh_distributed.h"
 #include "force.h"
 #include "improper.h"
 #include "kspace.h"

@@ -19,19 +19,18 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "group.h"
+#include "hd_stiffness_probe.h"
 #include "input.h"
 #include "kspace.h"
 #include "math_const.h"
 #include "membrane_tessellation.h"
 #include "neighbor.h"
-#include "hd_stiffness_probe.h"
 #include "update.h"
 
 #include <Eigen/Dense>
@@ -98,9 +97,8 @@ void HDTimestep::command(int narg, char **arg)
   const double fastest = overdamped ? largest.value : std::sqrt(largest.value);
   const double limit = 2.0 / fastest;
 
-  static const char *const NAMES[] = {"vertex", "consistent", "lumped"};
   print(fmt::format("Timestep for {} control points, mass {}:\n", mass.count(),
-                    NAMES[(int) mass.settings.kind]));
+                    Membrane_NS::mass_kind_name(mass.settings.kind)));
   print(fmt::format("  {:<36}{:.6g}\n",
                     overdamped ? "largest relaxation rate" : "largest frequency", fastest));
   if (largest.uncertainty > TOLERANCE * largest.value)
@@ -147,6 +145,7 @@ void HDTimestep::command(int narg, char **arg)
   }
   probe.restore();
   probe.evaluate(true);
+  mass.report_missed_tolerance();
 
   // two digits, rounded down
 
@@ -356,7 +355,7 @@ double HDTimestep::energy_error(HDMass &mass, StiffnessProbe &probe, double dt, 
         atom->v[part.atom_of(i)][k] += 0.5 * dt * force->ftm2v * a[i].c[k];
   };
 
-  // neighbor lists are not renewed, so whoever has use for them must not go far
+  // neighbor lists are not renewed: stop before other atoms have gone so far that they must be
 
   const bool other_atoms = atom->natoms > mass.mesh().topology().num_vertices();
   const double start = probe.evaluate(true) + kinetic();

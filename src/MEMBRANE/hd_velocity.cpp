@@ -19,7 +19,6 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
@@ -33,7 +32,7 @@
 using namespace LAMMPS_NS;
 using Membrane_NS::VertexField;
 
-// the thermostats draw from the same seeds at time steps: this is none of them
+// the thermostats draw from the same seeds at time steps, of which this is none
 static constexpr uint64_t NO_TIMESTEP = (uint64_t(1) << 48) - 1;
 
 /* ---------------------------------------------------------------------- */
@@ -68,18 +67,15 @@ void HDVelocity::command(int narg, char **arg)
   const double dof = 3.0 * mass.count() - remove_rigid_motion(mass, v);
 
   if (scale && kT > 0.0) {
-    VertexField p(v.size());
-    mass.matrix().multiply(v, p);
-    double twice = 0.0;
-    for (int i = 0; i < mass.part().owned; ++i)
-      for (int k = 0; k < 3; ++k) twice += v[i].c[k] * p[i].c[k];
-    mass.part().sum(&twice, 1);
+    const auto t = mass.matrix().kinetic(v);
+    const double twice = t[0] + t[1] + t[2];
     if (!(dof > 0.0) || !(twice > 0.0))
       error->all(FLERR, "hd_velocity: group {} has no degrees of freedom left", arg[0]);
     for (auto &vertex : v)
       for (int k = 0; k < 3; ++k) vertex.c[k] *= std::sqrt(dof * kT / twice);
   }
   mass.part().store(v, atom->v);
+  mass.report_missed_tolerance();
 }
 
 /* ---------------------------------------------------------------------- */

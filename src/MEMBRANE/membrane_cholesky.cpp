@@ -53,8 +53,8 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
 
 /* ----------------------------------------------------------------------
    G y = P x by rows of G, from the first to the last, G^T z = y by its columns, from the last to the
-   first: each time what is known of the others is taken off, in four sums, so that one does not wait for
-   the other
+   first: each time what is known of the others is taken off, in four sums, so that one does not wait
+   for the other
 ------------------------------------------------------------------------- */
 
 template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *, FIELDS> &x)
@@ -98,4 +98,37 @@ double SparseCholesky::memory_usage() const
     bytes += sizeof(int) * (lines->start.capacity() + lines->place.capacity()) +
         sizeof(double) * lines->value.capacity();
   return bytes;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PartCholesky::PartCholesky(VertexPart &part, const Eigen::SparseMatrix<double> &a) :
+    part_(part), factor_(a), all_x_(a.rows(), Vector4{}), all_y_(all_x_)
+{
+}
+
+void PartCholesky::scatter(const VertexField &all, VertexField &x) const
+{
+  for (int i = 0; i < part_.owned; ++i) x[i] = all[part_.vertices[i]];
+}
+
+void PartCholesky::solve(VertexField &x)
+{
+  part_.gather(x, all_x_);
+  factor_.solve(all_x_);
+  scatter(all_x_, x);
+}
+
+void PartCholesky::solve(VertexField &x, VertexField &y)
+{
+  part_.gather(x, all_x_);
+  part_.gather(y, all_y_);
+  factor_.solve(all_x_, all_y_);
+  scatter(all_x_, x);
+  scatter(all_y_, y);
+}
+
+double PartCholesky::memory_usage() const
+{
+  return factor_.memory_usage() + sizeof(Vector4) * (all_x_.capacity() + all_y_.capacity());
 }

@@ -14,7 +14,7 @@
 #ifndef LMP_MEMBRANE_CHOLESKY_H
 #define LMP_MEMBRANE_CHOLESKY_H
 
-#include "membrane_vertex_field.h"
+#include "membrane_vertex_part.h"
 
 #include <Eigen/SparseCore>
 
@@ -23,8 +23,8 @@
 
 namespace Membrane_NS {
 
-/** A symmetric, positive definite sparse matrix A, factorized: P A P^T = G G^T with a permutation P that
-    keeps G sparse, which Eigen finds. Solves for the four numbers of a vertex at once. */
+/** A symmetric, positive definite sparse matrix A, factorized: P A P^T = G G^T with a permutation P
+    that keeps G sparse, which Eigen finds. Solves for the four numbers of a vertex at once. */
 class SparseCholesky {
  public:
   /// Both triangles of A, or the lower one. MeshError if it is not positive definite.
@@ -37,8 +37,8 @@ class SparseCholesky {
   double memory_usage() const;
 
  private:
-  std::vector<int> place_;              // of a row of A in G
-  struct Lines {                        // of G below its diagonal: where each begins, places in it, values
+  std::vector<int> place_;    // of a row of A in G
+  struct Lines {              // of G below its diagonal: where each begins, places in it, values
     std::vector<int> start, place;
     std::vector<double> value;
   };
@@ -47,6 +47,26 @@ class SparseCholesky {
   VertexField work_;
 
   template <int FIELDS> void solve(const std::array<VertexField *, FIELDS> &x);
+};
+
+/** A matrix over all vertices of a mesh, factorized, for fields on the part of a rank. Every rank holds
+    all of it and does all the work. Solutions are collective. */
+class PartCholesky {
+ public:
+  /// The part must outlive this.
+  PartCholesky(VertexPart &part, const Eigen::SparseMatrix<double> &a);
+  /// x = A^-1 x, of owned vertices
+  void solve(VertexField &x);
+  /// The same for two.
+  void solve(VertexField &x, VertexField &y);
+  double memory_usage() const;
+
+ private:
+  VertexPart &part_;
+  SparseCholesky factor_;
+  VertexField all_x_, all_y_;    // by vertex of the topology
+
+  void scatter(const VertexField &all, VertexField &x) const;
 };
 
 }    // namespace Membrane_NS

@@ -25,27 +25,6 @@ using Eigen::Vector3d;
 static constexpr double TWO_PI = 6.283185307179586476925;
 
 /* ----------------------------------------------------------------------
-   the second fundamental form has the sign that makes the curvatures of a sphere positive
-------------------------------------------------------------------------- */
-
-LimitPoint Membrane_NS::limit_point(const LimitValues &values)
-{
-  const Vector3d ru = values.row(LimitBasis::DU), rv = values.row(LimitBasis::DV);
-  const Vector3d cross = ru.cross(rv);
-  LimitPoint point;
-  point.position = values.row(LimitBasis::VALUE);
-  point.normal = cross.normalized();
-
-  const double E = ru.dot(ru), F = ru.dot(rv), G = rv.dot(rv), det = cross.squaredNorm();
-  const double L = -values.row(LimitBasis::DUU).dot(point.normal);
-  const double M = -values.row(LimitBasis::DUV).dot(point.normal);
-  const double N = -values.row(LimitBasis::DVV).dot(point.normal);
-  point.mean_curvature = (E * N - 2.0 * F * M + G * L) / (2.0 * det);
-  point.gaussian_curvature = (L * N - M * M) / det;
-  return point;
-}
-
-/* ----------------------------------------------------------------------
    Tangent masks: the left eigenvectors of the subdominant eigenvalue [H. Hoppe et al., Piecewise
    Smooth Surface Reconstruction, SIGGRAPH 1994]. At a corner of a regular face only the vertex and
    its ring have weight; they are the first columns of the stencil, in the order of the ring.

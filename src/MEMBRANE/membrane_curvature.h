@@ -16,19 +16,11 @@
 
 #include "membrane_helfrich.h"
 #include "membrane_limit_basis.h"
-#include "membrane_tessellation.h"
+#include "membrane_limit_point.h"
 
 #include <vector>
 
 namespace Membrane_NS {
-
-// === At a point
-
-/// Position and derivatives of the limit surface, a row for each LimitBasis::Row.
-using LimitValues = Eigen::Matrix<double, LimitBasis::ROWS, 3>;
-
-/// Normal and curvatures from the first and second fundamental form.
-LimitPoint limit_point(const LimitValues &values);
 
 // === At a vertex
 

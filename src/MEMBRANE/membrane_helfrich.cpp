@@ -17,16 +17,16 @@
 
 #include "membrane_helfrich.h"
 
+#include "membrane_lanes.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <type_traits>
 
 using namespace Membrane_NS;
 
-// beyond, graded rules have thousands of points and their derivative rows overflow
-static constexpr int MOST_VALENCE = 32;
+// beyond MOST_VALENCE graded rules have thousands of points and their derivative rows overflow
 static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of one face
 
 /* ----------------------------------------------------------------------
@@ -63,9 +63,7 @@ std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchR
   };
   std::map<Valences, std::vector<Member>> members;
   for (int f : faces) {
-    const Face &face = topology.face(f);
-    const Valences n = {topology.valence(face[0]), topology.valence(face[1]),
-                        topology.valence(face[2])};
+    const Valences n = topology.valences(f);
     auto rank = [](const Valences &v) {
       Valences r;
       for (int k = 0; k < 3; ++k) r[k] = v[k] == 6 ? 0 : v[k];
@@ -116,67 +114,11 @@ int Membrane_NS::count_slots(const std::vector<FaceGroup> &groups)
 
 void FaceModel::resize(int nslots)
 {
-  for (auto *array : {&kc, &c0, &kg, &tension, &pressure}) array->assign(nslots, 0.0);
+  for (auto *array : {&kc, &c0, &kg, &tension, &moment, &pressure}) array->assign(nslots, 0.0);
   origin.assign(3 * static_cast<size_t>(nslots), 0.0);
 }
 
-/* ----------------------------------------------------------------------
-   a vector of LANES doubles, one for each face of a block, with elementwise arithmetic
-------------------------------------------------------------------------- */
-
 namespace {
-
-typedef double Lane __attribute__((vector_size(LANES * sizeof(double))));
-
-struct Lane3 {
-  Lane x, y, z;
-};
-
-inline Lane3 operator+(const Lane3 &a, const Lane3 &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Lane3 operator-(const Lane3 &a, const Lane3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Lane3 operator*(const Lane &s, const Lane3 &a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Lane3 operator*(double s, const Lane3 &a) { return {s * a.x, s * a.y, s * a.z}; }
-inline void operator+=(Lane3 &a, const Lane3 &b)
-{
-  a.x += b.x;
-  a.y += b.y;
-  a.z += b.z;
-}
-inline Lane dot(const Lane3 &a, const Lane3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Lane3 cross(const Lane3 &a, const Lane3 &b)
-{
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-inline Lane sqrt(const Lane &a)
-{
-  Lane root;
-  for (int l = 0; l < LANES; ++l) root[l] = std::sqrt(a[l]);
-  return root;
-}
-
-inline Lane load(const std::vector<double> &array, int slot)
-{
-  Lane lane;
-  std::memcpy(&lane, array.data() + slot, sizeof(Lane));
-  return lane;
-}
-
-inline void store(std::vector<double> &array, int slot, const Lane &lane)
-{
-  std::memcpy(array.data() + slot, &lane, sizeof(Lane));
-}
-
-inline Lane3 load3(const std::vector<double> &array, int slot)
-{
-  Lane3 lane;
-  for (int l = 0; l < LANES; ++l) {
-    lane.x[l] = array[3 * (slot + l)];
-    lane.y[l] = array[3 * (slot + l) + 1];
-    lane.z[l] = array[3 * (slot + l) + 2];
-  }
-  return lane;
-}
 
 // control points of a regular face, and of faces with one corner of valence 5 or 7
 constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13;
@@ -193,33 +135,45 @@ inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out
     }
 }
 
-inline Lane3 combine(const double *weights, const Lane3 *x, int size)
-{
-  Lane3 sum = weights[0] * x[0];
-  for (int k = 1; k < size; ++k) sum += weights[k] * x[k];
-  return sum;
-}
-
 /* ----------------------------------------------------------------------
    first pass on one block
 ------------------------------------------------------------------------- */
 
-template <int SIZE, bool VOLUME>
-void integrate_block(const PatchRule &rule, const Lane3 *x, const Lane3 &origin, Lane &area,
-                     Lane &volume, Lane3 &vector_area)
+struct BlockIntegrals {
+  Lane area, volume, curvature, bending;
+  Lane3 vector_area;
+};
+
+template <int SIZE, bool VOLUME, bool CURVATURE>
+void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot,
+                     BlockIntegrals &sum)
 {
   const int size = SIZE ? SIZE : rule.size;
-  area = volume = Lane{};
-  vector_area = Lane3{};
+  const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
+  const Lane kc = CURVATURE ? load(model.kc, slot) : Lane{};
+  const Lane c0 = CURVATURE ? load(model.c0, slot) : Lane{};
+  sum = BlockIntegrals{};
   for (int q = 0; q < rule.npoints; ++q) {
     const double weight = rule.weight[q];
-    const Lane3 a = cross(combine(rule.row(q, LimitBasis::DU), x, size),
-                          combine(rule.row(q, LimitBasis::DV), x, size));
-    area += weight * sqrt(dot(a, a));
+    const Lane3 ru = combine(rule.row(q, LimitBasis::DU), x, size);
+    const Lane3 rv = combine(rule.row(q, LimitBasis::DV), x, size);
+    const Lane3 a = cross(ru, rv);
+    const Lane J = sqrt(dot(a, a));
+    sum.area += weight * J;
     if (VOLUME) {
       const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), x, size) - origin;
-      volume += (weight / 3.0) * dot(r, a);
-      vector_area += weight * a;
+      sum.volume += (weight / 3.0) * dot(r, a);
+      sum.vector_area += weight * a;
+    }
+    if (CURVATURE) {
+      const Lane uu = dot(combine(rule.row(q, LimitBasis::DUU), x, size), a);
+      const Lane uv = dot(combine(rule.row(q, LimitBasis::DUV), x, size), a);
+      const Lane vv = dot(combine(rule.row(q, LimitBasis::DVV), x, size), a);
+      const Lane s = dot(rv, rv) * uu - 2.0 * dot(ru, rv) * uv + dot(ru, ru) * vv;
+      const Lane inverse = 1.0 / J, curvature = -s * inverse * inverse * inverse;    // 2H
+      const Lane excess = curvature - c0;
+      sum.curvature += weight * curvature * J;
+      sum.bending += (0.5 * weight) * kc * excess * excess * J;
     }
   }
 }
@@ -231,13 +185,14 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const Lane3 &origin,
    B = G r_uu - 2 F r_uv + E r_vv:
      2H = -B.a/J^3,   K J = [(r_uu.a)(r_vv.a) - (r_uv.a)^2]/J^3,
    so the energy density per (u, v) is a function of s = B.a and W = J^2 alone,
-     e = kc/2 (2H - c0)^2 J + tension J,
-     de/ds = -kc (2H - c0)/W,   de/dW = kc (2H - c0)/J [(2H - c0)/4 - 3/2 2H] + tension/(2 J),
+     e = kc/2 (2H - c0)^2 J + moment 2H J + tension J,
+     de/ds = -[kc (2H - c0) + moment]/W,
+     de/dW = kc (2H - c0)/J [(2H - c0)/4 - 3/2 2H] - moment 2H/J + tension/(2 J),
    and the chain rule runs back through B, E, F, G and a to the derivatives of r. The volume is
    (1/3) (r - origin).a.
 ------------------------------------------------------------------------- */
 
-template <int SIZE, bool GAUSS, bool VOLUME>
+template <int SIZE, bool GAUSS, bool VOLUME, bool MOMENT>
 void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, Lane3 *g,
                  Lane &bending, Lane &gauss, Lane &area)
 {
@@ -246,6 +201,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
   const Lane tension = load(model.tension, slot);
   const Lane kg = GAUSS ? load(model.kg, slot) : Lane{};
   const Lane pressure = VOLUME ? load(model.pressure, slot) : Lane{};
+  const Lane bend = MOMENT ? load(model.moment, slot) : Lane{};
   const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
 
   bending = gauss = area = Lane{};
@@ -285,8 +241,12 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     bending += (0.5 * weight) * kc * excess * excess * J;
 
     const Lane moment = weight * kc * excess * inverse;
-    const Lane e_s = -moment * inverse;
+    Lane e_s = -moment * inverse;
     Lane e_W = moment * (0.25 * excess - 1.5 * curvature) + (0.5 * weight) * tension * inverse;
+    if (MOMENT) {
+      e_s -= weight * bend * inverse * inverse;
+      e_W -= weight * bend * curvature * inverse;
+    }
 
     const Lane3 gB = e_s * a;
     const Lane gE = dot(rvv, gB), gF = -2.0 * dot(ruv, gB), gG = dot(ruu, gB);
@@ -340,11 +300,34 @@ template <class Choose> auto with_size(int size, const Choose &choose)
 }
 
 // choose the instance once per group, not in the loop
-template <int SIZE> auto choose_force_block(const HelfrichTerms &terms)
+template <class Choose> auto with_flag(bool flag, const Choose &choose)
 {
-  if (terms.gauss)
-    return terms.volume ? force_block<SIZE, true, true> : force_block<SIZE, true, false>;
-  return terms.volume ? force_block<SIZE, false, true> : force_block<SIZE, false, false>;
+  return flag ? choose(std::true_type()) : choose(std::false_type());
+}
+
+auto choose_integrate_block(int size, bool volume, bool curvature)
+{
+  return with_size(size, [&](auto n) {
+    return with_flag(volume, [&](auto v) {
+      return with_flag(curvature, [](auto c) {
+        return integrate_block<decltype(n)::value, decltype(v)::value, decltype(c)::value>;
+      });
+    });
+  });
+}
+
+auto choose_force_block(int size, const FaceTerms &terms)
+{
+  return with_size(size, [&](auto n) {
+    return with_flag(terms.gauss, [&](auto g) {
+      return with_flag(terms.volume, [&](auto v) {
+        return with_flag(terms.moment, [](auto m) {
+          return force_block<decltype(n)::value, decltype(g)::value, decltype(v)::value,
+                             decltype(m)::value>;
+        });
+      });
+    });
+  });
 }
 
 }    // namespace
@@ -355,37 +338,31 @@ void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
                                  const FaceModel &model, FaceIntegrals &out)
 {
   const PatchRule &rule = *group.rule;
-  const bool volume = !out.volume.empty();
-  auto integrate = with_size(rule.size, [volume](auto size) {
-    return volume ? integrate_block<size(), true> : integrate_block<size(), false>;
-  });
+  const bool volume = !out.volume.empty(), curved = !out.curvature.empty() || !out.bending.empty();
+  const auto integrate = choose_integrate_block(rule.size, volume, curved);
 
-  Lane3 p[MOST_POINTS], vector_area;
-  Lane area, enclosed;
+  Lane3 p[MOST_POINTS];
+  BlockIntegrals sum;
   for (int block = 0; block < group.nblocks(); ++block) {
     const int slot = group.first_slot + block * LANES;
     gather(&group.points[(size_t) block * rule.size * LANES], rule.size, x, p);
-    integrate(rule, p, volume ? load3(model.origin, slot) : Lane3{}, area, enclosed, vector_area);
-    if (!out.area.empty()) store(out.area, slot, area);
+    integrate(rule, p, model, slot, sum);
+    if (!out.area.empty()) store(out.area, slot, sum.area);
+    if (!out.curvature.empty()) store(out.curvature, slot, sum.curvature);
+    if (!out.bending.empty()) store(out.bending, slot, sum.bending);
     if (!volume) continue;
-    store(out.volume, slot, enclosed);
-    if (out.vector_area.empty()) continue;
-    for (int l = 0; l < LANES; ++l) {
-      out.vector_area[3 * (slot + l)] = vector_area.x[l];
-      out.vector_area[3 * (slot + l) + 1] = vector_area.y[l];
-      out.vector_area[3 * (slot + l) + 2] = vector_area.z[l];
-    }
+    store(out.volume, slot, sum.volume);
+    if (!out.vector_area.empty()) store3(out.vector_area, slot, sum.vector_area);
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                              const HelfrichTerms &terms, double (*f)[3], FaceEnergies &out)
+                              const FaceTerms &terms, double (*f)[3], FaceEnergies &out)
 {
   const PatchRule &rule = *group.rule;
-  auto evaluate =
-      with_size(rule.size, [&terms](auto size) { return choose_force_block<size()>(terms); });
+  const auto evaluate = choose_force_block(rule.size, terms);
 
   Lane3 p[MOST_POINTS], g[MOST_POINTS];
   Lane bending, gauss, area;

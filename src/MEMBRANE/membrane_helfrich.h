@@ -56,19 +56,20 @@ std::vector<FaceGroup> group_faces(const Topology &topology, PatchRules &rules,
 int count_slots(const std::vector<FaceGroup> &groups);
 
 /** What each face is made of, by slot: the energy of a face is
-    integral kc/2 (2H - c0)^2 + kg K + tension dA, and pressure is dE/dV of its membrane.
-    2H = +2/R on a sphere with outward normals. Any consistent units. */
+    integral kc/2 (2H - c0)^2 + kg K + moment 2H + tension dA, and pressure is dE/dV of its
+    membrane. 2H = +2/R on a sphere with outward normals. Any consistent units. */
 struct FaceModel {
-  std::vector<double> kc, c0, kg, tension, pressure;
+  std::vector<double> kc, c0, kg, tension, moment, pressure;
   std::vector<double> origin;    ///< [slots][3] the point volumes are measured from, in the
                                  ///< periodic image that the face is in
   void resize(int nslots);
 };
 
 /// Terms a scene has; what is left out costs nothing.
-struct HelfrichTerms {
+struct FaceTerms {
   bool gauss = false;     ///< some kg is not zero
   bool volume = false;    ///< some pressure is not zero
+  bool moment = false;    ///< some moment is not zero
 };
 
 /// Integrals over each face, by slot. Empty arrays are not computed.
@@ -76,6 +77,8 @@ struct FaceIntegrals {
   std::vector<double> area;           ///< [slots] dA
   std::vector<double> volume;         ///< [slots] (1/3) (r - origin).n dA
   std::vector<double> vector_area;    ///< [slots][3] n dA; comes with the volume only
+  std::vector<double> curvature;      ///< [slots] 2H dA
+  std::vector<double> bending;        ///< [slots] kc/2 (2H - c0)^2 dA
 };
 
 /// Energies and virials of each face, by slot. Empty arrays are not computed.
@@ -85,14 +88,14 @@ struct FaceEnergies {
                                  ///< the scene has a volume term, else from the first corner
 };
 
-/// First pass, needed when a term depends on a total area or volume. x is [points][3].
+/// First pass, needed when a term depends on a total of the membrane. x is [points][3].
 void face_integrals(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
                     FaceIntegrals &out);
 
 /** Second pass: adds minus the gradient of the energy to f, [points][3]. The gradient of the
     volume is taken at fixed origin. */
 void face_forces(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                 const HelfrichTerms &terms, double (*f)[3], FaceEnergies &out);
+                 const FaceTerms &terms, double (*f)[3], FaceEnergies &out);
 
 }    // namespace Membrane_NS
 

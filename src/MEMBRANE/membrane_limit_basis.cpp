@@ -27,9 +27,6 @@ using Eigen::RowVectorXd;
 
 static constexpr double TWO_PI = 6.283185307179586476925;
 
-static constexpr double CORNER_RADIUS = 1.0e-9;    // closer than this is at the corner
-static constexpr double INSIDE = 1.0 / 64.0;       // where derivatives are then taken
-
 /* ----------------------------------------------------------------------
    Loop's weights [C. Loop, Smooth Subdivision Surfaces Based on Triangles, 1987] and the
    eigenvalues of the subdivision matrix: 1, 3/8 + cos(2 pi m/n)/4 for the Fourier modes
@@ -156,6 +153,49 @@ LimitBasis::Weights Membrane_NS::box_spline(double u, double v)
     place(5 + 3 * k, BEYOND, k, next, prev);
   }
   return w;
+}
+
+// The same polynomials multiplied out, with t0 = 1 - u - v. Sums of integers over 12: exact but for
+// one rounding.
+
+static Quartics<12> multiplied_out()
+{
+  Quartics<12> quartics;
+  for (auto &term : quartics) term.setZero();
+  auto choose = [](int n, int k) {
+    double c = 1.0;
+    for (int i = 1; i <= k; ++i) c *= (n - k + i) / double(i);
+    return std::round(c);
+  };
+  auto place = [&](int column, const std::vector<Monomial> &p, int a, int b, int c) {
+    for (const Monomial &m : p) {
+      int e[3];
+      e[a] = m.a;
+      e[b] = m.b;
+      e[c] = m.c;
+      for (int i = 0; i <= e[0]; ++i)    // (1 - u - v)^e0 = sum of choose(e0, i) (-1)^i (u + v)^i
+        for (int j = 0; j <= i; ++j) {
+          const double sign = i % 2 ? -1.0 : 1.0;
+          quartics[quartic_term(e[1] + j, e[2] + i - j)][column] +=
+              sign * m.coefficient * choose(e[0], i) * choose(i, j);
+        }
+    }
+  };
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3, prev = (k + 2) % 3;
+    place(k, CORNER, k, next, prev);
+    place(3 + 3 * k, ACROSS, prev, k, next);
+    place(4 + 3 * k, BEYOND, k, prev, next);
+    place(5 + 3 * k, BEYOND, k, next, prev);
+  }
+  for (auto &term : quartics) term /= 12.0;
+  return quartics;
+}
+
+const Quartics<12> &Membrane_NS::box_spline_quartics()
+{
+  static const Quartics<12> quartics = multiplied_out();
+  return quartics;
 }
 
 /* ----------------------------------------------------------------------

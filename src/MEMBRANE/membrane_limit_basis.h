@@ -14,13 +14,13 @@
 #ifndef LMP_MEMBRANE_LIMIT_BASIS_H
 #define LMP_MEMBRANE_LIMIT_BASIS_H
 
+#include "membrane_quartic.h"
+#include "membrane_topology.h"
+
 #include <Eigen/Core>
 #include <array>
 
 namespace Membrane_NS {
-
-/// The valences of the three corners of a face.
-using Valences = std::array<int, 3>;
 
 // === Loop's subdivision rule
 
@@ -46,6 +46,8 @@ double energy_decay(int n);
 class LimitBasis {
  public:
   enum Row { VALUE, DU, DV, DUU, DUV, DVV, ROWS };
+  static constexpr double CORNER_RADIUS = 1.0e-9;    ///< closer than this is at the corner
+  static constexpr double INSIDE = 1.0 / 64.0;       ///< where derivatives are then taken
   using Weights = Eigen::Matrix<double, ROWS, Eigen::Dynamic, Eigen::RowMajor>;
 
   explicit LimitBasis(const Valences &valences);
@@ -79,6 +81,8 @@ class LimitBasis {
 
 /// Weights of the regular face (12 control points) at (u, v).
 LimitBasis::Weights box_spline(double u, double v);
+/// The same weights as polynomials in u and v, a lane for each control point.
+const Quartics<12> &box_spline_quartics();
 
 }    // namespace Membrane_NS
 

@@ -17,6 +17,8 @@
 
 #include "membrane_modes.h"
 
+#include "membrane_lanes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,17 +26,7 @@ using namespace Membrane_NS;
 
 static constexpr double TWO_PI = 6.283185307179586476925;
 
-/* ----------------------------------------------------------------------
-   a vector of LANES doubles, one for each face of a block, with elementwise arithmetic
-------------------------------------------------------------------------- */
-
 namespace {
-
-typedef double Lane __attribute__((vector_size(LANES * sizeof(double))));
-
-struct Lane3 {
-  Lane x, y, z;
-};
 
 struct LaneComplex {
   Lane re, im;
@@ -48,13 +40,6 @@ inline LaneComplex operator*(const LaneComplex &a, const LaneComplex &b)
 inline LaneComplex conjugate(const LaneComplex &a)
 {
   return {a.re, -a.im};
-}
-
-inline Lane sqrt(const Lane &a)
-{
-  Lane root;
-  for (int l = 0; l < LANES; ++l) root[l] = std::sqrt(a[l]);
-  return root;
 }
 
 // exp(-2 pi i s)
@@ -72,17 +57,6 @@ inline double total(const Lane &a)
 {
   double sum = 0.0;
   for (int l = 0; l < LANES; ++l) sum += a[l];
-  return sum;
-}
-
-inline Lane3 combine(const double *weights, const std::vector<Lane3> &x)
-{
-  Lane3 sum{};
-  for (size_t k = 0; k < x.size(); ++k) {
-    sum.x += weights[k] * x[k].x;
-    sum.y += weights[k] * x[k].y;
-    sum.z += weights[k] * x[k].z;
-  }
   return sum;
 }
 
@@ -123,13 +97,10 @@ void for_each_point(const FaceGroup &group, const double (*x)[3], const FaceMode
     const int faces = std::min(LANES, group.nfaces - block * LANES);
     for (int l = 0; l < faces; ++l) counted[l] = 1.0;
     for (int q = 0; q < rule.npoints; ++q) {
-      const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), p);
-      const Lane3 u = combine(rule.row(q, LimitBasis::DU), p);
-      const Lane3 v = combine(rule.row(q, LimitBasis::DV), p);
-      const Lane weight = rule.weight[q] * counted;
-      visit(r,
-            Lane3{weight * (u.y * v.z - u.z * v.y), weight * (u.z * v.x - u.x * v.z),
-                  weight * (u.x * v.y - u.y * v.x)});
+      const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), p.data(), rule.size);
+      const Lane3 u = combine(rule.row(q, LimitBasis::DU), p.data(), rule.size);
+      const Lane3 v = combine(rule.row(q, LimitBasis::DV), p.data(), rule.size);
+      visit(r, (rule.weight[q] * counted) * cross(u, v));
     }
   }
 }

@@ -53,16 +53,10 @@ class Images {
   void of_stencil(const std::vector<int> &stencil, std::vector<Image> &images) const
   {
     images.assign(stencil.size(), {0, 0, 0});
-    auto place = [&](size_t column, int anchor) {
+    topology_.along_stencil(stencil, [&](int column, int anchor) {
       images[column] = along(stencil[anchor], stencil[column]);
       for (int k = 0; k < 3; ++k) images[column][k] += images[anchor][k];
-    };
-    place(1, 0);
-    place(2, 0);
-    size_t column = 3;
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < topology_.valence(stencil[k]) - 3; ++i) place(column++, k);
-    while (column < stencil.size()) place(column++, 0);
+    });
   }
 
   /// Of `wanted`, seen from a vertex by the fewest edges; calls use(vertex, image) for each.
@@ -132,9 +126,7 @@ SurfaceCorners::SurfaceCorners(const Topology &topology, int n, const Seams &sea
   shifts_.assign(num_corners, Eigen::Vector3d::Zero());
   std::vector<int> stencil, touched;
   for (int f = 0; f < topology.num_faces(); ++f) {
-    const Face &face = topology.face(f);
-    const Valences valences = {topology.valence(face[0]), topology.valence(face[1]),
-                               topology.valence(face[2])};
+    const Valences valences = topology.valences(f);
     auto [entry, is_new] = known.try_emplace(valences);
     auto &weights = entry->second;
     if (is_new) {

@@ -17,36 +17,12 @@
 
 #include "membrane_tessellation.h"
 
-#include "membrane_curvature.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 using namespace Membrane_NS;
 using Eigen::Vector3d;
-
-/* ---------------------------------------------------------------------- */
-
-void Membrane_NS::stencil_points(const Topology &topology, const TriangleMesh &control, int face,
-                                 StencilPoints &points)
-{
-  std::vector<int> stencil;
-  topology.stencil(face, stencil);
-  points.resize(stencil.size(), 3);
-
-  auto place = [&](size_t column, int anchor) {
-    points.row(column) =
-        points.row(anchor) + control.edge(stencil[anchor], stencil[column]).transpose();
-  };
-  points.row(0) = control.points[stencil[0]].transpose();
-  place(1, 0);
-  place(2, 0);
-  size_t column = 3;
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < topology.valence(stencil[k]) - 3; ++i) place(column++, k);
-  while (column < stencil.size()) place(column++, 0);
-}
 
 /* ---------------------------------------------------------------------- */
 
@@ -144,10 +120,8 @@ TessellatedSurface Membrane_NS::tessellate(const Topology &topology, const Trian
   std::vector<LimitPoint> points;
   std::vector<int> number(cut.num_points()), meet(num_points, 0);
   for (int f = 0; f < topology.num_faces(); ++f) {
-    const Face &face = topology.face(f);
     stencil_points(topology, control, f, stencil);
-    cut.evaluate({topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])},
-                 stencil, points);
+    cut.evaluate(topology.valences(f), stencil, points);
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i + j <= n; ++i) number[cut.index(i, j)] = numbering.number(f, i, j);
 

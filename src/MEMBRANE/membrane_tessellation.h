@@ -14,7 +14,8 @@
 #ifndef LMP_MEMBRANE_TESSELLATION_H
 #define LMP_MEMBRANE_TESSELLATION_H
 
-#include "membrane_limit_basis.h"
+#include "membrane_limit_point.h"
+#include "membrane_stencil.h"
 #include "membrane_topology.h"
 #include "membrane_triangle_mesh.h"
 
@@ -23,22 +24,6 @@
 #include <vector>
 
 namespace Membrane_NS {
-
-/// A point of the limit surface and how the surface bends there.
-struct LimitPoint {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal;       ///< of length 1, outward
-  double mean_curvature;        ///< H = (k1 + k2)/2: +1/R on a sphere with outward normals
-  double gaussian_curvature;    ///< K = k1 k2: 1/R^2
-};
-
-/// A row for each point of Topology::stencil().
-using StencilPoints = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
-/** The control points of a face in the periodic image in which they belong together: corners
-    nearest to the first, the points of a corner's ring nearest to that corner. */
-void stencil_points(const Topology &topology, const TriangleMesh &control, int face,
-                    StencilPoints &points);
 
 /** Cuts faces into n x n triangles with corners on the limit surface.
 

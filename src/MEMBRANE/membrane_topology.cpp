@@ -195,10 +195,15 @@ int Topology::opposite(int f, int k) const
   return other[(corner_of(other, faces_[f][k]) + 1) % 3];
 }
 
-bool Topology::is_regular(int f) const
+Valences Topology::valences(int f) const
 {
   const Face &face = faces_[f];
-  return valence(face[0]) == 6 && valence(face[1]) == 6 && valence(face[2]) == 6;
+  return {valence(face[0]), valence(face[1]), valence(face[2])};
+}
+
+bool Topology::is_regular(int f) const
+{
+  return valences(f) == Valences{6, 6, 6};
 }
 
 /* ----------------------------------------------------------------------

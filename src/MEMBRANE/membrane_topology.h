@@ -32,6 +32,12 @@ class MeshError : public std::runtime_error {
 /// Three corner vertices, counter-clockwise seen from outside.
 using Face = std::array<int, 3>;
 
+/// The valences of the three corners of a face.
+using Valences = std::array<int, 3>;
+
+/// What works in arrays of fixed size has room for this valence, and says so of larger ones.
+constexpr int MOST_VALENCE = 32;
+
 /// A contiguous run of ints owned by somebody else.
 struct IntSpan {
   const int *first, *last;
@@ -75,6 +81,8 @@ class Topology {
   int neighbor(int f, int k) const { return neighbors_[f][k]; }
   /// The vertex of that face that is not on the edge.
   int opposite(int f, int k) const;
+  Valences valences(int f) const;
+  /// All three corners have valence 6.
   bool is_regular(int f) const;
 
   // === Vertices
@@ -101,6 +109,11 @@ class Topology {
       may occur more than once on a coarse mesh. `first` turns the face: that corner comes first. */
   void stencil(int f, std::vector<int> &points, int first = 0) const;
 
+  /** Calls place(column, anchor) for columns 1, 2, ... of a stencil: an edge joins the point in that
+      column to the one in column `anchor`, a corner, which is 0 or was placed before. So what is
+      known along edges, as periodic images are, becomes known of the stencil. */
+  template <class Place> void along_stencil(const std::vector<int> &points, Place &&place) const;
+
   /// Bytes held.
   double memory_usage() const;
 
@@ -118,6 +131,20 @@ class Topology {
   void walk_fans(int num_vertices, const Labels &labels);
   void find_components();
 };
+
+/* ---------------------------------------------------------------------- */
+
+template <class Place>
+void Topology::along_stencil(const std::vector<int> &points, Place &&place) const
+{
+  const int size = static_cast<int>(points.size());
+  place(1, 0);
+  place(2, 0);
+  int column = 3;
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < valence(points[k]) - 3; ++i) place(column++, k);
+  if (column < size) place(column, 0);    // tetrahedron
+}
 
 /// The corner of a face at which vertex v sits, or -1.
 inline int corner_of(const Face &face, int v)

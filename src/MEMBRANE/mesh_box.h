@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 
 namespace LAMMPS_NS {
 
@@ -35,6 +36,28 @@ inline Eigen::Matrix3d box_vectors(const Domain &domain) { return box_vectors(do
 inline std::array<bool, 3> periodic_directions(const Domain &domain)
 {
   return {domain.periodicity[0] != 0, domain.periodicity[1] != 0, domain.periodicity[2] != 0};
+}
+
+/// A difference in box lengths, each from the box vectors.
+inline std::array<double, 3> in_box_lengths(const Domain &domain, const double *d)
+{
+  const double *inv = domain.h_inv;
+  return {inv[0] * d[0] + inv[5] * d[1] + inv[4] * d[2], inv[1] * d[1] + inv[3] * d[2],
+          inv[2] * d[2]};
+}
+
+/// Turns a difference into its nearest image; returns by how many box vectors that moved it.
+inline std::array<int, 3> nearest_image(const Domain &domain, double *d)
+{
+  std::array<int, 3> moved = {0, 0, 0};
+  const double *h = domain.h;
+  const auto s = in_box_lengths(domain, d);
+  for (int k = 0; k < 3; ++k)
+    if (domain.periodicity[k]) moved[k] = -static_cast<int>(std::round(s[k]));
+  d[0] += h[0] * moved[0] + h[5] * moved[1] + h[4] * moved[2];
+  d[1] += h[1] * moved[1] + h[3] * moved[2];
+  d[2] += h[2] * moved[2];
+  return moved;
 }
 
 }    // namespace LAMMPS_NS

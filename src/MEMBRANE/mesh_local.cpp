@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 LocalMesh::LocalMesh(LAMMPS *lmp, std::string user) :
-    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1)
+    Pointers(lmp), user(std::move(user)), generation(0), epoch(-1), inits(0)
 {
 }
 
@@ -33,12 +33,16 @@ void LocalMesh::require() const
   DistributedMesh::of(lmp, user);
 }
 
-void LocalMesh::init()
+MeshChange LocalMesh::init()
 {
+  const auto before = mesh;
   mesh = DistributedMesh::shared(lmp, user);
   mesh->update();
+  const bool same = mesh == before && generation == mesh->generation();
   generation = mesh->generation();
   epoch = -1;
+  ++inits;
+  return same ? MeshChange::NUMBERS : MeshChange::TOPOLOGY;
 }
 
 MeshChange LocalMesh::follow()

@@ -18,6 +18,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace LAMMPS_NS {
 
@@ -44,12 +45,16 @@ class LocalMesh : protected Pointers {
   /// Stops if the atom style has no mesh: for constructors of styles that are made after it.
   void require() const;
 
-  /// Collective; call from init(). Takes hold of the mesh of the present atom style and brings it up to
-  /// date. The next follow() reports NUMBERS at least.
-  void init();
+  /** Collective; call from init(). Takes hold of the mesh of the present atom style and brings it up
+      to date: TOPOLOGY if it is another than this held, or its faces are, else NUMBERS. The next
+      follow() reports NUMBERS at least. */
+  MeshChange init();
   /** Collective; call in each step before the mesh is used. What has changed since the last call or
       init(). Stops if atoms were replaced since init(), as a compute asked between runs finds. */
   MeshChange follow();
+
+  /// Differs whenever init() of this, or update() of the mesh by another style, was called.
+  std::pair<bigint, bigint> stamp() const { return {inits, mesh->updates()}; }
 
   DistributedMesh *operator->() const { return mesh.get(); }
   DistributedMesh &operator*() const { return *mesh; }
@@ -58,7 +63,7 @@ class LocalMesh : protected Pointers {
   std::string user;
   std::shared_ptr<DistributedMesh> mesh;
   int generation;
-  bigint epoch;
+  bigint epoch, inits;
 };
 
 }    // namespace LAMMPS_NS

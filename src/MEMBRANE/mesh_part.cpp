@@ -29,10 +29,9 @@ using Membrane_NS::VertexField;
 
 /* ---------------------------------------------------------------------- */
 
-MeshPart::MeshPart(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, int rings) :
+MeshPart::MeshPart(LAMMPS *lmp, const DistributedMesh &mesh, int groupbit, int rings) :
     Pointers(lmp), groupbit(groupbit)
 {
-  mesh.refresh();
   for (const auto &[i, v] : mesh.owned_points())
     if (atom->mask[i] & groupbit) vertices.push_back(v);
   owned = static_cast<int>(vertices.size());
@@ -41,9 +40,8 @@ MeshPart::MeshPart(LAMMPS *lmp, DistributedMesh &mesh, int groupbit, int rings) 
   if (comm->nprocs > 1) find_halo(mesh, rings);
 }
 
-bool MeshPart::follow(DistributedMesh &mesh)
+bool MeshPart::find_atoms_again(const DistributedMesh &mesh)
 {
-  mesh.refresh();
   int mine = find_atoms(mesh), all;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
   return all;
@@ -51,7 +49,7 @@ bool MeshPart::follow(DistributedMesh &mesh)
 
 // the atoms of the owned vertices; whether these are all of the group on this rank
 
-bool MeshPart::find_atoms(DistributedMesh &mesh)
+bool MeshPart::find_atoms(const DistributedMesh &mesh)
 {
   std::vector<int> atom_of_vertex(mesh.topology().num_vertices(), -1);
   int count = 0;
@@ -70,10 +68,10 @@ bool MeshPart::find_atoms(DistributedMesh &mesh)
 }
 
 /* ----------------------------------------------------------------------
-   halo vertices sorted by the rank that owns them; each rank tells the owners what it needs
+   halo vertices sorted by the rank that owns them; each rank asks the owners for what it needs
 ------------------------------------------------------------------------- */
 
-void MeshPart::find_halo(DistributedMesh &mesh, int rings)
+void MeshPart::find_halo(const DistributedMesh &mesh, int rings)
 {
   const auto &topology = mesh.topology();
   const int n = topology.num_vertices(), nprocs = comm->nprocs;
@@ -96,8 +94,9 @@ void MeshPart::find_halo(DistributedMesh &mesh, int rings)
     halo.insert(halo.end(), beyond.begin(), beyond.end());
     front.swap(beyond);
   }
-  std::sort(halo.begin(), halo.end(),
-            [&owner](int a, int b) { return std::pair(owner[a], a) < std::pair(owner[b], b); });
+  std::sort(halo.begin(), halo.end(), [&owner](int a, int b) {
+    return std::pair(owner[a], a) < std::pair(owner[b], b);
+  });
   vertices.insert(vertices.end(), halo.begin(), halo.end());
 
   std::vector<int> wanted(nprocs, 0), asked(nprocs), wanted_start(nprocs + 1, 0),

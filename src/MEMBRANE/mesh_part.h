@@ -14,7 +14,7 @@
 #ifndef LMP_MESH_PART_H
 #define LMP_MESH_PART_H
 
-#include "membrane_mass.h"
+#include "membrane_vertex_part.h"
 #include "pointers.h"
 
 #include <vector>
@@ -26,13 +26,13 @@ namespace LAMMPS_NS {
     exchange of all ghost atoms. */
 class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
  public:
-  /// Collective. Of the control points in a group, which must be whole membranes; the halo reaches
-  /// `rings` edges beyond the owned ones.
-  MeshPart(class LAMMPS *, class DistributedMesh &, int groupbit, int rings);
+  /// Collective. Of the control points in a group, which must be all points of its membranes; the
+  /// halo reaches `rings` edges beyond the owned ones. Here and below the mesh is up to date.
+  MeshPart(class LAMMPS *, const class DistributedMesh &, int groupbit, int rings);
 
-  /** Collective; call when LAMMPS has reneighboured. Whether each rank still owns the same vertices,
-      and so all numbers but those of atoms stay; if not, this part is of no more use. */
-  bool follow(class DistributedMesh &);
+  /** Collective; call when LAMMPS has reneighboured. Whether each rank still owns its vertices,
+      so that all numbers but those of atoms stay; if not, make a new part. */
+  bool find_atoms_again(const class DistributedMesh &);
 
   /// The owned atom of an owned vertex.
   int atom_of(int i) const { return atoms[i]; }
@@ -50,8 +50,8 @@ class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
  private:
   struct Partner {
     int rank;
-    std::vector<int> send;         // owned vertices that are in the partner's halo
-    int first, count;              // where its vertices are in the halo
+    std::vector<int> send;    // owned vertices that are in the partner's halo
+    int first, count;         // where its vertices are in the halo
     std::vector<Membrane_NS::Vector4> buffer;
   };
   int groupbit;
@@ -60,8 +60,8 @@ class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
   std::vector<MPI_Request> requests;
   std::vector<MPI_Status> statuses;    // LAMMPS' stand-in for MPI cannot ignore them
 
-  bool find_atoms(class DistributedMesh &);
-  void find_halo(class DistributedMesh &, int rings);
+  bool find_atoms(const class DistributedMesh &);
+  void find_halo(const class DistributedMesh &, int rings);
 };
 
 }    // namespace LAMMPS_NS

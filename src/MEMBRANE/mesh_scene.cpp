@@ -102,7 +102,7 @@ void MeshScene::evaluate(int f, FaceTessellation &tessellation, std::vector<Limi
   const Face &face = topology.face(f);
   stencil_points(topology, control, f, stencil);
   tessellation.evaluate(
-      {topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])}, stencil,
+      topology.valences(f), stencil,
       points);
 }
 

@@ -41,7 +41,7 @@ MeshTotals::MeshTotals(LAMMPS *lmp, const LocalMesh &mesh) : Pointers(lmp), mesh
 
 void MeshTotals::place_centres()
 {
-  seen_update = mesh->updates();
+  seen = mesh.stamp();
   const auto &topology = mesh->topology();
   parts.assign(topology.num_components(), Total());
   for (int v = 0; v < topology.num_vertices(); ++v) {
@@ -80,19 +80,20 @@ void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &
 /* ---------------------------------------------------------------------- */
 
 void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
-                         FaceIntegrals &integrals, bool with_volume)
+                         FaceIntegrals &integrals, const Wanted &wanted)
 {
-  if (seen_update != mesh->updates()) place_centres();
+  if (seen != mesh.stamp()) place_centres();
   const int nslots = count_slots(groups);
   integrals.area.resize(nslots);
-  integrals.volume.resize(with_volume ? nslots : 0);
-  integrals.vector_area.resize(with_volume ? 3 * (size_t) nslots : 0);
+  integrals.curvature.resize(wanted.curvature ? nslots : 0);
+  integrals.volume.resize(wanted.volume ? nslots : 0);
+  integrals.vector_area.resize(wanted.volume ? 3 * (size_t) nslots : 0);
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  if (with_volume) place_origins(groups, model);
+  if (wanted.volume) place_origins(groups, model);
   for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
 
-  constexpr int WIDTH = 8;
+  constexpr int WIDTH = 9;
   const int n = parts.size();
   std::vector<double> mine((size_t) n * WIDTH, 0.0), all(mine.size());
   for (const FaceGroup &group : groups)
@@ -100,11 +101,12 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
       const int slot = group.first_slot + s;
       double *sum = &mine[component_of(group, s) * WIDTH];
       sum[0] += integrals.area[slot];
-      if (!with_volume) continue;
+      if (wanted.curvature) sum[8] += integrals.curvature[slot];
+      if (!wanted.volume) continue;
       sum[1] += integrals.volume[slot];
       for (int k = 0; k < 3; ++k) sum[2 + k] += integrals.vector_area[3 * (size_t) slot + k];
     }
-  if (with_volume)
+  if (wanted.volume)
     for (const auto &[i, v] : mesh->owned_points()) {
       double unwrapped[3];
       domain->unmap(atom->x[i], atom->image[i], unwrapped);
@@ -113,15 +115,17 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
     }
   MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
 
-  wholes.assign(mesh->molecules().size(), Total());
+  sums.assign(mesh->molecules().size(), Total());
   std::vector<std::array<double, 3>> shift(n);
   for (int c = 0; c < n; ++c) {
     const double *sum = &all[c * WIDTH];
     Total &total = parts[c];
-    Total &membrane = wholes[mesh->membrane(c)];
+    Total &membrane = sums[mesh->membrane(c)];
     total.area = sum[0];
+    total.curvature = sum[8];
     membrane.area += total.area;
-    if (!with_volume) continue;
+    membrane.curvature += total.curvature;
+    if (!wanted.volume) continue;
     total.volume = sum[1];
     for (int k = 0; k < 3; ++k) {
       const double centre = sum[5 + k] / mesh->topology().num_vertices(c);
@@ -132,7 +136,7 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
     }
     if (mesh->is_closed(c)) membrane.volume += total.volume;
   }
-  if (!with_volume) return;
+  if (!wanted.volume) return;
   for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nslots(); ++s) {
       const auto &d = shift[n == 1 ? 0 : component_of(group, s)];

@@ -28,9 +28,10 @@ namespace LAMMPS_NS {
     the centre keeps V, and so total momentum, exactly independent of where the membrane is. */
 class MeshTotals : protected Pointers {
  public:
-  /// Sums over a connected component of the mesh, or what they give for a membrane.
+  /// Sums over a connected component of the mesh, or over those of a membrane.
   struct Total {
     double area = 0.0, volume = 0.0;
+    double curvature = 0.0;                     ///< integral of 2H
     double vector_area[3] = {0.0, 0.0, 0.0};    ///< components only
     double centre[3] = {0.0, 0.0, 0.0};         ///< components only; unwrapped
   };
@@ -38,21 +39,25 @@ class MeshTotals : protected Pointers {
   /// The handle must outlive this.
   MeshTotals(class LAMMPS *, const LocalMesh &);
 
-  /** Collective. Areas, and volumes if wanted, of the faces of these groups, of their components
+  /// What besides areas.
+  struct Wanted {
+    bool volume, curvature;
+  };
+  /** Collective. Areas, and what else is wanted, of the faces of these groups, of their components
       and of their membranes. A membrane's volume is that of its closed components. With volumes, the
       model's origins are at the centres afterwards, moved to the periodic image each face is in. */
   void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
-               Membrane_NS::FaceIntegrals &, bool with_volume);
+               Membrane_NS::FaceIntegrals &, const Wanted &);
   const std::vector<Total> &components() const { return parts; }
-  const std::vector<Total> &membranes() const { return wholes; }
+  const std::vector<Total> &membranes() const { return sums; }
 
   /// The connected component of the face in a slot of a group.
   int component_of(const Membrane_NS::FaceGroup &, int slot) const;
 
  private:
   const LocalMesh &mesh;
-  bigint seen_update = -1;
-  std::vector<Total> parts, wholes;
+  std::pair<bigint, bigint> seen{-1, -1};    // stamp of the mesh that parts are for
+  std::vector<Total> parts, sums;
 
   void place_centres();
   void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;

@@ -27,7 +27,7 @@
 using namespace LAMMPS_NS;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Membrane_NS::MassKind;
+using Membrane_NS::LimitMask;
 using Membrane_NS::SurfaceChange;
 using Membrane_NS::SurfaceVertex;
 using Membrane_NS::Vector4;
@@ -43,17 +43,14 @@ static constexpr bigint MOST_DIRECT = 10000;
 
 SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, std::string user) :
     Pointers(lmp), user(std::move(user)), groupbit(group->bitmask[igroup]), held(lmp, this->user),
-    mass(lmp, igroup, this->user), movers(lmp, igroup, this->user),
+    points(lmp, igroup, this->user), movers(lmp, igroup, this->user),
     shape(lmp, groupbit, level, this->user), any_fixed(false), step(0.0), ahead(0.0)
 {
-  mass.settings.kind = MassKind::VERTEX;
-  mass.settings.tolerance = TOLERANCE;
 }
 
 void SurfaceMotion::init()
 {
-  mass.init();
-  mass.settings.direct = comm->nprocs == 1 && mass.count() <= MOST_DIRECT;
+  points.init();
   held.init();
   movers.init();
   find_masses();
@@ -61,7 +58,7 @@ void SurfaceMotion::init()
 
 void SurfaceMotion::setup()
 {
-  mass.refresh();
+  follow_points();
   shape.setup(mesh());
   vertices.assign(shape.num_vertices(), {{Vector3d::Zero(), Vector3d::Zero()}});
   for (size_t v = 0; v < inverse_masses.size(); ++v) vertices[v].inverse_mass = inverse_masses[v];
@@ -122,12 +119,21 @@ void SurfaceMotion::check_frames()
    after reneighbouring: who owns what
 ------------------------------------------------------------------------- */
 
+void SurfaceMotion::follow_points()
+{
+  constexpr int RINGS = 1;
+  if (!points.follow(RINGS)) return;
+  const bool direct = comm->nprocs == 1 && points.count() <= MOST_DIRECT;
+  mask = std::make_unique<LimitMask>(mesh().topology(), part(),
+                                     LimitMask::Solver{direct, TOLERANCE});
+}
+
 void SurfaceMotion::refresh()
 {
-  mass.refresh();
+  follow_points();
   if (held.follow() == MeshChange::NOTHING) return;
 
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   atom_vertex.assign(atom->nlocal, -1);
   for (int i = 0; i < part.owned; ++i) atom_vertex[part.atom_of(i)] = i;
 
@@ -149,8 +155,8 @@ void SurfaceMotion::refresh()
 void SurfaceMotion::remember()
 {
   if (!any_fixed) return;
-  mass.refresh();
-  mass.part().load(atom->x, remembered);
+  follow_points();
+  points.part().load(atom->x, remembered);
   remembered_box = lattice();
   remembered_corner = Vector3d::Map(domain->boxlo);
 }
@@ -159,7 +165,7 @@ void SurfaceMotion::remember()
 
 void SurfaceMotion::load_positions()
 {
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   q.resize(part.size());
   r.resize(part.size());
   const Matrix3d box = lattice();
@@ -171,12 +177,12 @@ void SurfaceMotion::load_positions()
     x += box * Vector3d(offset[0], offset[1], offset[2]);
     q[i] = {{x[0], x[1], x[2], 0.0}};
   }
-  mass.matrix().apply_mask(q, r);
+  mask->apply(q, r);
   for (int i = 0; i < part.owned; ++i) {
     const auto &seam = shape.ring_images(part.vertices[i]);
     if (!seam[0] && !seam[1] && !seam[2]) continue;
     const Vector3d shift = box * Vector3d(seam[0], seam[1], seam[2]);
-    for (int k = 0; k < 3; ++k) r[i].c[k] += mass.matrix().mask_spoke(i) * shift[k];
+    for (int k = 0; k < 3; ++k) r[i].c[k] += mask->spoke(i) * shift[k];
   }
 }
 
@@ -184,7 +190,7 @@ void SurfaceMotion::load_positions()
 
 void SurfaceMotion::load_displacements()
 {
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   moved.assign(part.size(), Vector4{});
   const Matrix3d box = lattice(), to_fraction = box.inverse();
   const Vector3d corner = Vector3d::Map(domain->boxlo);
@@ -204,7 +210,7 @@ void SurfaceMotion::load_displacements()
 
 void SurfaceMotion::load_accelerations()
 {
-  moved.assign(mass.part().size(), Vector4{});
+  moved.assign(points.part().size(), Vector4{});
   movers.load_accelerations(atom_vertex, moved);
 }
 
@@ -237,10 +243,10 @@ void SurfaceMotion::begin_step(double dt)
     for (int k = 0; k < 3; ++k) moved[i].c[k] /= dt;
   drift = moved;
   velocity.resize(part().size());
-  matrix().apply_mask(moved, velocity);
+  mask->apply(moved, velocity);
   load_accelerations();
   acceleration.resize(part().size());
-  matrix().apply_mask(moved, acceleration);
+  mask->apply(moved, acceleration);
   step = ahead = dt;
 }
 
@@ -269,7 +275,7 @@ const std::vector<SurfaceVertex> &SurfaceMotion::places()
 {
   refresh();
   load_positions();
-  MeshPart &part = mass.part();
+  MeshPart &part = points.part();
   mine.resize(3 * part.owned);
   for (int i = 0; i < part.owned; ++i)
     for (int k = 0; k < 3; ++k) mine[3 * i + k] = r[i].c[k];
@@ -292,7 +298,7 @@ void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
   velocity_now.resize(part().size());
   for (int i = 0; i < part().owned; ++i)    // whatever velocities the atoms have that nothing moves
     if (!is_free(part().vertices[i])) moved[i] = drift[i];
-  matrix().apply_mask(moved, velocity_now);
+  mask->apply(moved, velocity_now);
 }
 
 /* ----------------------------------------------------------------------
@@ -306,7 +312,7 @@ void SurfaceMotion::apply(const VertexField &change)
   q.resize(part().size());
   for (int i = 0; i < part().owned; ++i)
     if (!is_free(part().vertices[i])) q[i] = {};
-  matrix().solve_mask(q, r);
+  mask->solve(q, r);
   change_velocities();
 }
 
@@ -319,7 +325,7 @@ void SurfaceMotion::apply(const std::vector<SurfaceChange> &changes)
     q[i] = {{change.velocity[0], change.velocity[1], change.velocity[2], 0.0}};
     moved[i] = {{change.position[0], change.position[1], change.position[2], 0.0}};
   }
-  matrix().solve_mask(q, moved, r, detour);
+  mask->solve(q, moved, r, detour);
   change_velocities();
   for (int i = 0; i < part().owned; ++i)
     if (is_free(part().vertices[i]))
@@ -343,7 +349,7 @@ void SurfaceMotion::change_velocities()
 
 double SurfaceMotion::memory_usage() const
 {
-  return mass.memory_usage() + shape.memory_usage() + sizeof(SurfaceVertex) * vertices.capacity() +
+  return (mask ? mask->memory_usage() : 0.0) + shape.memory_usage() + sizeof(SurfaceVertex) * vertices.capacity() +
       sizeof(double) * (mine.capacity() + all.capacity() + masses.capacity()) +
       sizeof(int) * (listed.capacity() + owner_of.capacity() + atom_vertex.capacity()) +
       sizeof(Vector4) *

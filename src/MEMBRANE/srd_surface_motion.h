@@ -14,14 +14,16 @@
 #ifndef LMP_SRD_SURFACE_MOTION_H
 #define LMP_SRD_SURFACE_MOTION_H
 
-#include "hd_mass.h"
+#include "membrane_limit_mask.h"
 #include "membrane_srd_surface.h"
 #include "mesh_box.h"
+#include "mesh_group.h"
 #include "mesh_local.h"
 #include "srd_surface.h"
 #include "srd_surface_movers.h"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -85,8 +87,7 @@ class SurfaceMotion : protected Pointers {
   void apply(const std::vector<Membrane_NS::SurfaceChange> &changes);
 
   /// Owned vertices in the order of their atoms.
-  MeshPart &part() { return mass.part(); }
-  Membrane_NS::MassOperator &matrix() { return mass.matrix(); }
+  MeshPart &part() { return points.part(); }
   double mass_of(int mass) const { return masses[mass]; }
   const std::vector<double> &all_inverse_masses() const { return inverse_masses; }
   bool is_free(int mass) const { return inverse_masses[mass] > 0.0; }
@@ -96,7 +97,8 @@ class SurfaceMotion : protected Pointers {
   std::string user;
   int groupbit;
   LocalMesh held;
-  HDMass mass;
+  MeshGroup points;
+  std::unique_ptr<Membrane_NS::LimitMask> mask;
   SurfaceMovers movers;
   SRDSurface shape;
   std::vector<Membrane_NS::SurfaceVertex> vertices;
@@ -117,6 +119,7 @@ class SurfaceMotion : protected Pointers {
   Membrane_NS::VertexField q, moved, r, detour;
 
   void find_masses();
+  void follow_points();
   void refresh();
   void load_positions();
   void load_displacements();

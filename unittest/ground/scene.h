@@ -166,16 +166,17 @@ inline std::set<int> valences_of(const TriangleMesh &mesh)
 
 /// The material of one connected component.
 struct Moduli {
-  double kc = 0.0, c0 = 0.0, kg = 0.0, tension = 0.0, pressure = 0.0;
+  double kc = 0.0, c0 = 0.0, kg = 0.0, tension = 0.0, pressure = 0.0, moment = 0.0;
 };
 
 struct Totals {
-  double bending = 0.0, gauss = 0.0, tension = 0.0, pressure = 0.0;    ///< energies
-  double area = 0.0, volume = 0.0;
+  double bending = 0.0, gauss = 0.0, tension = 0.0, pressure = 0.0, moment = 0.0;    ///< energies
+  double area = 0.0, volume = 0.0, curvature = 0.0;
+  double first_pass_bending = 0.0;
   Vector3d vector_area = Vector3d::Zero();
   Points force;                          ///< [vertices]
   Eigen::Matrix<double, 6, 1> virial;    ///< xx yy zz xy xz yz of sum r f
-  double energy() const { return bending + gauss + tension + pressure; }
+  double energy() const { return bending + gauss + tension + pressure + moment; }
 };
 
 /// Patch rules are the same for all scenes: each is built once in a test program.
@@ -209,7 +210,7 @@ class Scene {
   const Topology &topology() const { return topology_; }
   std::vector<FaceGroup> &groups() { return groups_; }
   FaceModel &model() { return model_; }
-  HelfrichTerms &terms() { return terms_; }
+  FaceTerms &terms() { return terms_; }
   FaceEnergies &last_energies() { return energies_; }
 
   /// Volumes are measured from here.
@@ -231,6 +232,8 @@ class Scene {
     integrals.area.resize(nslots);
     integrals.volume.resize(nslots);
     integrals.vector_area.resize(3 * nslots);
+    integrals.curvature.resize(nslots);
+    integrals.bending.resize(nslots);
     for (auto *array : {&energies_.bending, &energies_.gauss, &energies_.area})
       array->assign(nslots, 0.0);
     energies_.virial.assign(6 * nslots, 0.0);
@@ -246,6 +249,9 @@ class Scene {
         sum.gauss += energies_.gauss[slot];
         sum.tension += model_.tension[slot] * energies_.area[slot];
         sum.pressure += model_.pressure[slot] * integrals.volume[slot];
+        sum.moment += model_.moment[slot] * integrals.curvature[slot];
+        sum.first_pass_bending += integrals.bending[slot];
+        sum.curvature += integrals.curvature[slot];
         sum.area += integrals.area[slot];
         sum.volume += integrals.volume[slot];
         sum.vector_area += Eigen::Map<const Vector3d>(&integrals.vector_area[3 * slot]);
@@ -268,7 +274,7 @@ class Scene {
   std::vector<Moduli> moduli_;
   std::vector<FaceGroup> groups_;
   FaceModel model_;
-  HelfrichTerms terms_;
+  FaceTerms terms_;
   FaceEnergies energies_;
   std::vector<Local> locals_;    // vertices, then ghosts
 
@@ -292,9 +298,11 @@ class Scene {
         model_.kg[slot] = m.kg;
         model_.tension[slot] = m.tension;
         model_.pressure[slot] = m.pressure;
+        model_.moment[slot] = m.moment;
         for (int d = 0; d < 3; ++d) model_.origin[3 * slot + d] = origin[d];
         terms_.gauss = terms_.gauss || m.kg != 0.0;
         terms_.volume = terms_.volume || m.pressure != 0.0;
+        terms_.moment = terms_.moment || m.moment != 0.0;
       }
   }
 

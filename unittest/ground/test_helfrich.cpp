@@ -29,12 +29,14 @@ const Moduli GAUSS = {0.0, 0.0, 1.0, 0.0, 0.0};
 const Moduli SPONTANEOUS = {1.0, 0.8, 0.0, 0.0, 0.0};
 const Moduli TENSION = {0.0, 0.0, 0.0, 1.0, 0.0};
 const Moduli PRESSURE = {0.0, 0.0, 0.0, 0.0, 1.0};
-const Moduli EVERYTHING = {1.3, -0.7, 0.6, 0.9, -1.1};
+const Moduli MOMENT = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+const Moduli EVERYTHING = {1.3, -0.7, 0.6, 0.9, -1.1, 0.4};
 constexpr double STEP = 1e-3;    // of numerical derivatives, lengths being of order 1
 
 const std::vector<std::pair<std::string, Moduli>> TERMS = {
     {"bending", BENDING}, {"bending with c0", SPONTANEOUS}, {"gauss", GAUSS},
-    {"tension", TENSION}, {"pressure", PRESSURE},           {"everything", EVERYTHING}};
+    {"tension", TENSION}, {"pressure", PRESSURE},           {"moment", MOMENT},
+    {"everything", EVERYTHING}};
 
 double bending(const TriangleMesh &mesh, Quadrature quadrature, double c0 = 0.0)
 {
@@ -649,6 +651,26 @@ TEST(ClosedForms, CylinderConvergesWithOrderFour)
                  scientific(errors[0]) + " " + scientific(errors[1]) + " " + scientific(errors[2]));
 }
 
+// the integral of 2H: 2 pi L of a cylinder, 8 pi R of a sphere
+TEST(ClosedForms, IntegratedMeanCurvatureOfCylinderAndSphere)
+{
+  const double R = 0.8, L = 3.0;
+  Matrix3d box = 4.0 * Matrix3d::Identity();
+  box(2, 2) = L;
+  std::vector<double> errors;
+  for (int n : {12, 24, 48})
+    errors.push_back(
+        Scene(interpolate(tube(n, n, R, box, 2)), Quadrature::SIX).evaluate().curvature /
+            (2.0 * PI * L) - 1.0);
+  EXPECT_GE(fitted_order(errors), 3.7);
+  EXPECT_LT(std::fabs(errors.back()), 1e-5);
+
+  const Totals t = Scene(interpolate(icosphere(4, R)), Quadrature::SIX).evaluate();
+  EXPECT_LT(relative(t.curvature, 8.0 * PI * R), 1e-4);
+  RecordProperty("cylinder", scientific(errors.back()));
+  RecordProperty("sphere", scientific(relative(t.curvature, 8.0 * PI * R)));
+}
+
 // the valence-5 vertices limit an interpolated sphere
 TEST(ClosedForms, InterpolatedIcospheresBendAsInTheReference)
 {
@@ -803,8 +825,8 @@ TEST(Groups, RefuseAValenceTheyHaveNoRoomFor)
   }
 }
 
-// both passes see the same area
-TEST(Passes, AgreeOnTheArea)
+// both passes see the same area and the same bending
+TEST(Passes, AgreeOnAreaAndBending)
 {
   Scene scene(test_mesh("bumpy_icosphere_2"), Quadrature::SIX, {EVERYTHING});
   const Totals t = scene.evaluate();
@@ -812,4 +834,5 @@ TEST(Passes, AgreeOnTheArea)
   for (const FaceGroup &group : scene.groups())
     for (int i = 0; i < group.nfaces; ++i) area += scene.last_energies().area[group.first_slot + i];
   EXPECT_LT(relative(area, t.area), 1e-14);
+  EXPECT_LT(relative(t.first_pass_bending, t.bending), 1e-14);
 }

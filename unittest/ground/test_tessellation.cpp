@@ -127,10 +127,8 @@ TEST(Tessellation, PointsOnEdgesAreTheSameFromBothFaces)
   std::vector<LimitPoint> points;
   double worst = 0.0;
   for (int f = 0; f < topology.num_faces(); ++f) {
-    const Face &face = topology.face(f);
     stencil_points(topology, mesh, f, stencil);
-    one.evaluate({topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])},
-                 stencil, points);
+    one.evaluate(topology.valences(f), stencil, points);
     for (size_t t = 0; t < one.triangles().size(); ++t)
       for (int k = 0; k < 3; ++k) {
         const int p = surface.mesh.faces[f * n * n + t][k];
@@ -294,9 +292,7 @@ TEST(Tessellation, AnExtraordinaryVertexHasTheMeanOverItsFaces)
       stencil_points(topology, mesh, f, stencil);
       std::vector<LimitPoint> points;
       FaceTessellation one(1);
-      one.evaluate(
-          {topology.valence(face[0]), topology.valence(face[1]), topology.valence(face[2])},
-          stencil, points);
+      one.evaluate(topology.valences(f), stencil, points);
       const int corner[3] = {one.index(0, 0), one.index(1, 0), one.index(0, 1)};
       mean += points[corner[corner_of(face, v)]].mean_curvature / topology.valence(v);
     }

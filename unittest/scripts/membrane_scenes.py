@@ -20,6 +20,14 @@ def write_off(path, points, faces):
             file.write("3 %d %d %d\n" % tuple(face))
 
 
+def read_off(path):
+    """Points and faces."""
+    words = [line.split() for line in open(path) if line.strip() and not line.startswith("#")][1:]
+    n, m = int(words[0][0]), int(words[0][1])
+    return ([[float(x) for x in row[:3]] for row in words[1:n + 1]],
+            [[int(i) for i in row[1:4]] for row in words[n + 1:n + m + 1]])
+
+
 def bipyramid(n):
     """Two poles of valence n over an equator of n points of valence 4."""
     points = [(math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), 0.0) for i in range(n)]
@@ -89,7 +97,7 @@ SCENES = {
 }
 
 # pair_coeff of types 1 and 2; of which every term has its forces
-GLOBAL = "area 70.0 9.0 area/local 40.0 volume 60.0 3.0 pressure 1.5"
+GLOBAL = "area 70.0 9.0 area/local 40.0 area/difference 8.0 2.0 thickness 0.1 volume 60.0 3.0 pressure 1.5"
 TERMS = {
     "bending": ("10.0 0.0", "15.0 0.0"),
     "spontaneous curvature": ("10.0 0.8", "15.0 -0.4"),
@@ -97,6 +105,7 @@ TERMS = {
     "tension": ("0.0 0.0 tension 3.0", "0.0 0.0 tension 5.0"),
     "area": ("0.0 0.0 area 70.0 9.0",) * 2,
     "area/local": ("0.0 0.0 area/local 40.0",) * 2,
+    "area/difference": ("0.0 0.0 area/difference 8.0 2.0 thickness 0.1",) * 2,
     "volume": ("0.0 0.0 volume 60.0 3.0",) * 2,
     "pressure": ("0.0 0.0 pressure 1.5",) * 2,
     "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 {GLOBAL}", f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),

@@ -5,6 +5,13 @@ from statistics import NormalDist
 
 from lammps_claims import claim
 
+BLOCKS, EVERY = 32, 10    # of a run; steps from sample to sample
+
+
+def block_length(steps, blocks=BLOCKS):
+    """Steps of a block, a multiple of EVERY, for about so many steps in all."""
+    return steps // (blocks * EVERY) * EVERY
+
 
 def averages(path):
     """Blocks of a fix ave/time file, mode vector: each a list with a value for each row."""
@@ -49,3 +56,12 @@ def compare(text, spectrum, precision=0.01):
           f"chi^2 {squares:.1f} (limit {chi_squared_limit(n):.1f})")
     claim(f"{text}: all together", abs(mean - 1) < 2.6 * weight ** -0.5 and weight ** -0.5 < precision,
           f"{mean:.4f} +- {weight ** -0.5:.4f} of theory")
+
+
+def agree(text, one, other):
+    """Claims that two spectra are the same."""
+    n, squares = len(one), 0.0
+    for key in one:
+        (a, da), (b, db) = one[key], other[key]
+        squares += (a - b) ** 2 / (da * da + db * db)
+    claim(f"{text} agree", squares < chi_squared_limit(n), f"chi^2 {squares:.1f} of {n} (limit {chi_squared_limit(n):.1f})")

@@ -181,11 +181,22 @@ CASES = [
     (coeff("1 1 10.0 0.0 area 1.0 0.0"), "pair_coeff helfrich reference area 0.0 must be positive or init"),
     (coeff("1 1 10.0 0.0 area 1.0"), "missing argument"),
     (coeff("1 1 10.0 0.0 volume 1.0 first"), "instead of 'first'"),
+    (coeff("1 1 10.0 0.0 area/difference 1.0 init"), "missing argument"),
+    (coeff("1 1 10.0 0.0 area/difference -1.0 init thickness 1.0"), "area/difference modulus -1.0 is negative"),
+    (coeff("1 1 10.0 0.0 area/difference 1.0 first thickness 1.0"), "instead of 'first'"),
+    (coeff("1 1 10.0 0.0 area/difference 1.0 init 1.0 pressure"),
+     "pair_coeff helfrich area/difference: 1.0 must be thickness and a length"),
+    (coeff("1 1 10.0 0.0 area/difference 1.0 init thickness 0.0"),
+     "pair_coeff helfrich area/difference thickness 0.0 must be positive"),
     (coeff("1 1 10.0 0.0 stiffness 1.0"), "Unknown pair_coeff helfrich keyword stiffness; known are: kg, tension"),
     (coeff("* * 10.0 0.0 volume 1.0 init", "plane 8 8"), "encloses no volume: remove volume and pressure"),
     (coeff("* * 10.0 0.0 pressure 1.0", "cylinder 8 8 1.0 z"), "encloses no volume: remove volume and pressure"),
     (create("1 sphere 1 1.0") + "set atom 1*5 type 2\npair_style helfrich\npair_coeff 1 1 10.0 0.0 area 1.0 init\n"
      "pair_coeff 2 2 10.0 0.0\nrun 0\n", "Membrane 1 has control points of types with different area"),
+    (create("1 sphere 1 1.0") + "set atom 1*5 type 2\npair_style helfrich\n"
+     "pair_coeff 1 1 10.0 0.0 area/difference 1.0 init thickness 0.1\n"
+     "pair_coeff 2 2 10.0 0.0 area/difference 1.0 init thickness 0.2\nrun 0\n",
+     "Membrane 1 has control points of types with different area/difference coefficients"),
 
     # === Shapes that cannot be, at the start and on the way
     (create("1 sphere 0 3.0"), "create_membrane sphere: an edge spans half the periodic box in"),

@@ -1,13 +1,14 @@
 """Meshes and scenes that are hard on the numerics: forces are the gradient of the energy, the stability
 limit found is one, half the timestep has a quarter of the energy error. Prints a table of what it
 measures, for Howto_membrane_accuracy."""
+# cost: 40
 
 import math
 import os
 import re
 
 from lammps_claims import REFERENCE, claim, finish, run, thermo
-from membrane_scenes import bipyramid, read_dump, write_off
+from membrane_scenes import bipyramid, read_dump, read_off, write_off
 
 SCENE = """
 units           lj
@@ -24,13 +25,6 @@ thermo_style    custom step pe etotal
 thermo_modify   temp T norm no format float %.17g
 """
 BOX = "-3 3 -3 3 -3 3"
-
-
-def read_off(path):
-    words = [line.split() for line in open(path) if line.strip() and not line.startswith("#")][1:]
-    n, m = int(words[0][0]), int(words[0][1])
-    return ([[float(x) for x in row[:3]] for row in words[1:n + 1]],
-            [[int(i) for i in row[1:4]] for row in words[n + 1:n + m + 1]])
 
 
 def scene(create, box=BOX, coefficients="", tiny=1e-6):
@@ -125,27 +119,5 @@ for name, case in CASES.items():
     claim(f"{name}: forces are the gradient of the energy", apart < 2e-5, f"{apart:.1e}")
     claim(f"{name}: half the step, a quarter of the energy error", 3.5 < coarse / fine < 4.5,
           f"{coarse / fine:.3f}, {fine:.1e} of {energy:.3g}")
-
-# === A neck that closes: two spheres have no energy for this c0. The mesh degrades between the points of
-# quadrature; the energy printed is wrong, and that is said
-
-waist = [(x * w, y * w, 1.4 * z) for x, y, z in points for w in (0.3 + 0.7 * min(1.0, z * z / 0.25),)]
-write_off("waist.off", waist, faces)
-for terms, warns in (("", True), ("regularize 0.01", False)):
-    output = run(f"""
-units           lj
-atom_style      membrane_cp
-region          box block {BOX}
-create_box      1 box angle/types 1
-create_membrane 1 file waist.off refine 1
-special_bonds   lj/coul 1 1 1
-pair_style      helfrich
-pair_coeff      1 1 1.0 {2 * math.sqrt(2)!r} area 1000.0 {4 * math.pi!r} volume 1000.0 {4 * math.pi / 3 * math.sqrt(0.5)!r} {terms}
-min_style       membrane
-minimize        0 0 4000 40000
-""")
-    warning = re.search("WARNING: The bending energy is .*", output)
-    claim(f"a neck that closes, {terms or 'no regularize'}: a finer rule " + ("sees another energy, and a warning says so"
-          if warns else "sees the same energy"), bool(warning) == warns, warning[0] if warning else "no warning")
 
 finish()

@@ -1,4 +1,4 @@
-"""min_style membrane: as many iterations on any mesh, and further than LAMMPS' own styles."""
+"""min_style membrane: a few hundred evaluations on any mesh. How LAMMPS' own styles fare: bench/minimizers.py."""
 
 import os
 import re
@@ -9,9 +9,8 @@ SCRIPT = open(os.path.join(EXAMPLES, "..", "bench", "in.deflate")).read()
 MINIMUM = 45.769    # bending energy at moderate penalties, oblate branch, reduced volume 0.652
 
 
-def relax(level, style="membrane", evals=2000, ranks=1):
-    output = run(SCRIPT, ranks=ranks,
-                 args=["-var", "level", level, "-var", "style", style, "-var", "evals", evals])
+def relax(level, evals=2000, ranks=1):
+    output = run(SCRIPT, ranks=ranks, args=["-var", "level", level, "-var", "evals", evals])
     used = int(re.findall(r"Iterations, force evaluations = (\d+) (\d+)", output)[-1][1])
     return used, thermo(output)[-1]["c_e[1]"], output
 
@@ -20,11 +19,6 @@ for level in range(1, 6):
     used, energy, _ = relax(level, evals=240)
     claim(f"{10 * 4**level + 2} points: within 0.1 % of the minimum in 250 evaluations",
           used <= 250 and abs(energy / MINIMUM - 1) < 1e-3, f"{used}, {energy:.4f}")
-
-used, _, _ = relax(4)
-_, energy, _ = relax(4, style="cg", evals=10 * used)
-claim("2562 points: cg is still 1 % above after ten times the evaluations",
-      energy > 1.01 * MINIMUM, f"{energy:.4f}")
 
 _, serial, _ = relax(3)
 _, parallel, _ = relax(3, ranks=2)

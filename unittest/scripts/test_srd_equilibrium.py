@@ -2,7 +2,7 @@
 around it, and has the undulations of theory: in equilibrium they do not depend on what surrounds it.
 
 A sheet of 8 x 8 points, kc = 200 kT, in a periodic box of solvent with the only thermostat. Theory for the sheet is
-that of the discrete system without solvent, as in test_spectrum.py. A tension of 3/2 kT per area of a control point
+that of the discrete system without solvent, as in test_spectrum_plane.py. A tension of 3/2 kT per area of a control point
 makes up for the entropy of their positions, which would stretch the sheet in its frame: so there is no tension in
 the spectrum (doc/src/Howto_srd.rst). A wave moves the solvent
 within 1/q on its two sides,
@@ -25,13 +25,11 @@ tenth of its limit; with velocities on time it would be 0 here and as much too h
 # timeout: 7200
 
 import math
-import os
 
-from lammps_claims import claim, finish, run
+from lammps_claims import LONG, claim, finish, run
 from lattice_waves import EDGES, inertia, stiffness, surface
 from mode_statistics import averages, compare, mean_and_error
 
-LONG = bool(os.environ.get("MEMBRANE_LONG"))
 BLOCKS, EVERY, STEPS = 32, 25, (100000 if LONG else 15000)    # of a block
 N, NMAX, HEIGHT, KC, M, VERTEX_MASS, DT = 8, 2, 8, 200.0, 5, 10.0, 0.004
 WIDTH, DEPTH = N, N * EDGES[1][1]

@@ -20,11 +20,9 @@ of, makes a cell forget the part 1/(k + 1), k = 3 (N - 1)/2, of it at each colli
 # timeout: 3600
 
 import math
-import os
 
-from lammps_claims import claim, finish, run, thermo
+from lammps_claims import LONG, claim, finish, run, thermo
 
-LONG = bool(os.environ.get("MEMBRANE_LONG"))
 BLOCKS, BIN, APART = 16, 0.5, 1.5
 NX, LY, NY = 8, 7, 8    # of a sheet; faces nearly equilateral
 

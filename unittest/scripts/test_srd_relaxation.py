@@ -8,9 +8,8 @@ only."""
 
 import cmath
 import math
-import os
 
-from lammps_claims import claim, finish, run, skip, thermo
+from lammps_claims import LONG, claim, finish, run, skip, thermo
 from membrane_scenes import write_off
 
 # === The solvent: viscosity of kinetic theory, speed of sound of an isothermal gas
@@ -261,7 +260,7 @@ def report(name, theory, runs, times, formula):
 
 
 if __name__ == "__main__":
-    if not os.environ.get("MEMBRANE_LONG"):
+    if not LONG:
         skip("takes long: set MEMBRANE_LONG=1")
     COUNT = {"vesicle": 96, "sheet": 256}
 

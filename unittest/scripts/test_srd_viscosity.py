@@ -5,11 +5,10 @@ amplitudes u follow u(t + s) = r u(t) + noise, so r is the regression over many 
 thermal states; its error is the jackknife over the decays. Runs with MEMBRANE_LONG=1 only."""
 
 import math
-import os
 
-from lammps_claims import claim, finish, run, skip
+from lammps_claims import LONG, claim, finish, run, skip
 
-if not os.environ.get("MEMBRANE_LONG"):
+if not LONG:
     skip("takes long: set MEMBRANE_LONG=1")
 MORE = 12
 

@@ -1,0 +1,98 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_LANES_H
+#define LMP_MEMBRANE_LANES_H
+
+#include "membrane_helfrich.h"
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace Membrane_NS {
+
+/// A vector of LANES doubles, one for each face of a block, with elementwise arithmetic.
+typedef double Lane __attribute__((vector_size(LANES * sizeof(double))));
+
+/// Three of them: a vector in space for each face.
+struct Lane3 {
+  Lane x, y, z;
+};
+
+inline Lane3 operator+(const Lane3 &a, const Lane3 &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Lane3 operator-(const Lane3 &a, const Lane3 &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Lane3 operator*(const Lane &s, const Lane3 &a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Lane3 operator*(double s, const Lane3 &a) { return {s * a.x, s * a.y, s * a.z}; }
+inline void operator+=(Lane3 &a, const Lane3 &b)
+{
+  a.x += b.x;
+  a.y += b.y;
+  a.z += b.z;
+}
+inline Lane dot(const Lane3 &a, const Lane3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Lane3 cross(const Lane3 &a, const Lane3 &b)
+{
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline Lane sqrt(const Lane &a)
+{
+  Lane root;
+  for (int l = 0; l < LANES; ++l) root[l] = std::sqrt(a[l]);
+  return root;
+}
+
+inline Lane load(const std::vector<double> &array, int slot)
+{
+  Lane lane;
+  std::memcpy(&lane, array.data() + slot, sizeof(Lane));
+  return lane;
+}
+
+inline void store(std::vector<double> &array, int slot, const Lane &lane)
+{
+  std::memcpy(array.data() + slot, &lane, sizeof(Lane));
+}
+
+inline Lane3 load3(const std::vector<double> &array, int slot)
+{
+  Lane3 lane;
+  for (int l = 0; l < LANES; ++l) {
+    lane.x[l] = array[3 * (slot + l)];
+    lane.y[l] = array[3 * (slot + l) + 1];
+    lane.z[l] = array[3 * (slot + l) + 2];
+  }
+  return lane;
+}
+
+inline void store3(std::vector<double> &array, int slot, const Lane3 &lane)
+{
+  for (int l = 0; l < LANES; ++l) {
+    array[3 * (slot + l)] = lane.x[l];
+    array[3 * (slot + l) + 1] = lane.y[l];
+    array[3 * (slot + l) + 2] = lane.z[l];
+  }
+}
+
+/// A linear combination of the control points of the faces.
+inline Lane3 combine(const double *weights, const Lane3 *x, int size)
+{
+  Lane3 sum = weights[0] * x[0];
+  for (int k = 1; k < size; ++k) sum += weights[k] * x[k];
+  return sum;
+}
+
+}    // namespace Membrane_NS
+
+#endif

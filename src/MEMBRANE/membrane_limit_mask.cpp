@@ -1,0 +1,229 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_limit_mask.h"
+
+#include "membrane_limit_basis.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace Membrane_NS;
+
+/* ---------------------------------------------------------------------- */
+
+double Membrane_NS::limit_mask_lowest(const Topology &topology)
+{
+  std::map<Valences, double> smallest;
+  double lowest = 1.0;
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    Valences n = topology.valences(f);
+    std::sort(n.begin(), n.end());
+    const auto [found, added] = smallest.emplace(n, 1.0);
+    if (!added) continue;
+    Eigen::Matrix3d s = Eigen::Matrix3d::Constant(0.5), inverse_e = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const double c = limit_mask_centre(n[k]);
+      s(k, k) = c / (1.0 - c);
+      inverse_e(k, k) = 1.0 / (1.0 - c);
+    }
+    found->second =
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(s, inverse_e).eigenvalues()[0];
+    lowest = std::min(lowest, found->second);
+  }
+  return lowest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+LimitMask::LimitMask(const Topology &topology, VertexPart &part, const Solver &solver) :
+    part_(part), lowest_(limit_mask_lowest(topology))
+{
+  const auto local = part.local_numbers();
+  ring_start_.assign(1, 0);
+  for (int i = 0; i < part.owned; ++i) {
+    const int v = part.vertices[i], n = topology.valence(v);
+    centre_.push_back(limit_mask_centre(n));
+    spoke_.push_back((1.0 - centre_.back()) / n);
+    for (int w : topology.ring(v)) ring_.push_back(local.at(w));
+    ring_start_.push_back(static_cast<int>(ring_.size()));
+  }
+
+  // as many passes as Chebyshev's error bound 2 rate^k takes, and their weights
+
+  const double root = std::sqrt(lowest_), rate = (1.0 - root) / (1.0 + root);
+  const double sigma = (1.0 + lowest_) / (1.0 - lowest_);
+  omega_.assign(std::max(1, (int) std::ceil(std::log(0.5 * solver.tolerance) / std::log(rate))),
+                2.0);
+  for (size_t k = 1; k < omega_.size(); ++k)
+    omega_[k] = 1.0 / (1.0 - 0.25 * omega_[k - 1] / (sigma * sigma));
+
+  if (solver.direct) factorize(topology);
+}
+
+/* ----------------------------------------------------------------------
+   S = diag(n c/(1 - c)) + adjacency, and 1 for vertices that no rank's part has
+------------------------------------------------------------------------- */
+
+void LimitMask::factorize(const Topology &topology)
+{
+  const int n = topology.num_vertices();
+  VertexField one(part_.size(), Vector4{{1.0}}), in_part(n, Vector4{});
+  part_.gather(one, in_part);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int v = 0; v < n; ++v) {
+    if (in_part[v].c[0] == 0.0) {
+      entries.emplace_back(v, v, 1.0);
+      continue;
+    }
+    const int valence = topology.valence(v);
+    const double c = limit_mask_centre(valence);
+    entries.emplace_back(v, v, valence * c / (1.0 - c));
+    for (int w : topology.ring(v)) entries.emplace_back(v, w, 1.0);
+  }
+  Eigen::SparseMatrix<double> s(n, n);
+  s.setFromTriplets(entries.begin(), entries.end());
+  factor_ = std::make_unique<PartCholesky>(part_, s);
+}
+
+/* ---------------------------------------------------------------------- */
+
+namespace {
+
+// sum over a ring; nearly all have six vertices
+inline Quad ring_sum(const int *ring, int n, const Vector4 *x)
+{
+  if (n == 6)
+    return (quad(x[ring[0]]) + quad(x[ring[1]])) + (quad(x[ring[2]]) + quad(x[ring[3]])) +
+        (quad(x[ring[4]]) + quad(x[ring[5]]));
+  Quad sum = {};
+  for (int j = 0; j < n; ++j) sum += quad(x[ring[j]]);
+  return sum;
+}
+
+}    // namespace
+
+void LimitMask::apply(VertexField &x, VertexField &y)
+{
+  part_.fill_halo(x);
+  for (int i = 0; i < part_.owned; ++i) {
+    const int start = ring_start_[i], n = ring_start_[i + 1] - start;
+    quad(y[i]) = centre_[i] * quad(x[i]) + spoke_[i] * ring_sum(&ring_[start], n, x.data());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LimitMask::solve(const VertexField &b, VertexField &x)
+{
+  if (!factor_) return chebyshev(b, x);
+  x.resize(part_.size());
+  for (int i = 0; i < part_.owned; ++i) quad(x[i]) = quad(b[i]) / spoke_[i];
+  factor_->solve(x);
+}
+
+void LimitMask::solve(const VertexField &b, const VertexField &c, VertexField &x, VertexField &y)
+{
+  if (!factor_) {
+    chebyshev(b, x);
+    chebyshev(c, y);
+    return;
+  }
+  x.resize(part_.size());
+  y.resize(part_.size());
+  for (int i = 0; i < part_.owned; ++i) {
+    quad(x[i]) = quad(b[i]) / spoke_[i];
+    quad(y[i]) = quad(c[i]) / spoke_[i];
+  }
+  factor_->solve(x, y);
+}
+
+/* ----------------------------------------------------------------------
+   Chebyshev's semi-iterative method for L x = b [G. Golub and C. Van Loan, Matrix Computations,
+   4th ed., 11.2.8]: x_k+1 = x_k-1 + omega_k+1 (x_k - x_k-1 + (b - L x_k)/theta). It keeps two iterates
+   only, and the new one takes the place of the one before last.
+
+   On one rank several passes follow one another through the layers of the mesh, each a layer
+   behind the last, so that a vertex is in the cache for all of them. On several ranks the halo travels
+   while the inner vertices are done.
+------------------------------------------------------------------------- */
+
+void LimitMask::chebyshev_pass(int first, int last, double omega, const VertexField &b,
+                               const VertexField &x, VertexField &y) const
+{
+  const double scale = 2.0 * omega / (1.0 + lowest_);
+  const Vector4 *now = x.data(), *rhs = b.data();
+  const int *starts = ring_start_.data(), *ring = ring_.data();
+  const double *c = centre_.data(), *e = spoke_.data();
+  Vector4 *out = y.data();
+  for (int i = first; i < last; ++i) {
+    const Quad sum = ring_sum(ring + starts[i], starts[i + 1] - starts[i], now);
+    const Quad before = quad(out[i]), here = quad(now[i]);
+    quad(out[i]) =
+        before + omega * (here - before) + scale * (quad(rhs[i]) - c[i] * here - e[i] * sum);
+  }
+}
+
+void LimitMask::chebyshev(const VertexField &b, VertexField &x)
+{
+  constexpr int TOGETHER = 8;    // passes: their layers fit into a second-level cache
+  const int n = part_.owned, npasses = static_cast<int>(omega_.size());
+  const double theta = 0.5 * (1.0 + lowest_);
+  previous_.resize(part_.size());
+  x.resize(part_.size());
+
+  // the iterates take turns in two fields, such that the last is x
+
+  VertexField *field[2] = {&x, &previous_};
+  if (npasses % 2) std::swap(field[0], field[1]);
+  for (int i = 0; i < n; ++i) {
+    quad((*field[0])[i]) = Quad{};
+    quad((*field[1])[i]) = quad(b[i]) / theta;
+  }
+
+  if (part_.size() > n) {
+    for (int k = 1; k < npasses; ++k) {
+      VertexField &now = *field[k % 2], &next = *field[(k + 1) % 2];
+      part_.begin_halo(now);
+      chebyshev_pass(part_.layers[1], n, omega_[k], b, now, next);
+      part_.end_halo(now);
+      chebyshev_pass(0, part_.layers[1], omega_[k], b, now, next);
+    }
+  } else {
+    const int nlayers = static_cast<int>(part_.layers.size()) - 1;
+    for (int k = 1; k < npasses; k += TOGETHER) {
+      const int depth = std::min(TOGETHER, npasses - k);
+      for (int front = 0; front < nlayers + depth - 1; ++front)
+        for (int j = std::max(0, front - nlayers + 1); j < std::min(depth, front + 1); ++j)
+          chebyshev_pass(part_.layers[front - j], part_.layers[front - j + 1], omega_[k + j], b,
+                         *field[(k + j) % 2], *field[(k + j + 1) % 2]);
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double LimitMask::memory_usage() const
+{
+  return sizeof(Vector4) * previous_.capacity() +
+      sizeof(int) * (ring_.capacity() + ring_start_.capacity()) +
+      sizeof(double) * (centre_.capacity() + spoke_.capacity()) +
+      (factor_ ? factor_->memory_usage() : 0.0);
+}

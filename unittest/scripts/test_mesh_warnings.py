@@ -1,0 +1,101 @@
+"""Warnings about the mesh while it moves: a vesicle that crumples goes on for a while, stretched or coarse
+meshes are left alone. fix nve on control points is warned of."""
+
+from lammps_claims import claim, error_of, finish, run, thermo
+from membrane_scenes import TETRAHEDRON, bipyramid, write_off
+
+# === A vesicle only crumples: it may go on for a while
+
+CRUMPLED = """
+units           lj
+atom_style      membrane_cp
+region          box block -3 3 -3 3 -3 3
+create_box      1 box angle/types 1
+create_membrane 1 sphere 2 1.0
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0 area 100.0 init volume 100.0 init
+fix             1 all hd/langevin 1.0 1.0 10.0 4711
+{modify}
+compute         s all membrane/shape
+thermo_style    custom step pe c_s[10]
+thermo_modify   norm no
+timestep        0.001
+{runs}
+"""
+for ranks in (1, 2):
+    output = run(CRUMPLED.format(modify="", runs="run 1000"), ranks=ranks)
+    lines = [line for line in output.split("\n") if "WARNING" in line and "face" in line and "turned over" in line]
+    claim(f"{ranks} rank(s): a vesicle that crumples goes on with a warning", 1 <= len(lines) <= ranks and
+          "the run stops after step" in lines[0], lines[:1])
+    error = error_of(CRUMPLED.format(modify="fix_modify 1 faces 300", runs="run 1000"), ranks=ranks)
+    claim("    and stops as many steps later as fix_modify says",
+          "Fix hd/langevin: face " in error and "regularize in pair_coeff" in error, error)
+    error = error_of(CRUMPLED.format(modify="fix_modify 1 faces 300", runs="run 103\n" * 10), ranks=ranks)
+    claim("    also if it is made of many short runs", "Fix hd/langevin: face " in error, error)
+error = error_of(CRUMPLED.format(modify="fix_modify 1 faces -1", runs="run 1"))
+claim("fix_modify faces -1", "must not be negative" in error, error)
+
+# === No false alarm: meshes that are stretched, coarse or sharp from the start
+
+STIFF = """
+units           lj
+atom_style      membrane_cp
+region          box block -4 4 -4 4 -4 4
+create_box      1 box angle/types 1
+create_membrane 1 {shape}
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0 area 100.0 init volume 100.0 init
+velocity        all create 1e-6 4711
+fix             1 all hd/nve
+compute         s all membrane/shape
+thermo_style    custom step pe c_s[7] c_s[8] c_s[9]
+thermo_modify   norm no
+timestep        {dt}
+run             200
+"""
+write_off("tetrahedron.off", *TETRAHEDRON)
+write_off("bipyramid3.off", *bipyramid(3))
+write_off("bipyramid12.off", *bipyramid(12))
+for name, shape, dt in (("edge ratio 10", "sphere 2 1.0 scale 4 1 0.4", 1e-4),
+                        ("edge ratio 50", "sphere 2 1.0 scale 1 1 0.02", 5e-6),
+                        ("faces of 2 degrees", "torus 8 16 1.5 0.3", 1e-4),
+                        ("a bare tetrahedron", "file tetrahedron.off", 1e-3),
+                        ("valence 3", "file bipyramid3.off", 1e-3),
+                        ("valence 12", "file bipyramid12.off refine 1", 1e-4),
+                        ("a sharp prolate", "sphere 2 1.0 scale 0.4 0.4 2.0", 1e-5)):
+    rows = thermo(run(STIFF.format(shape=shape, dt=dt)))
+    claim(f"{name}: runs", len(rows) == 2, f"edges {rows[0]['c_s[7]']:.3g} to {rows[0]['c_s[8]']:.3g}, "
+          f"smallest angle {rows[0]['c_s[9]']:.3g}")
+
+# === Integrators of plain atoms
+
+PLAIN = """
+units           lj
+atom_style      membrane_cp
+region          box block -4 4 -4 4 -4 4
+create_box      2 box angle/types 1
+create_membrane 1 sphere 1 1.0
+create_atoms    2 single 3 3 3
+group           points type 1
+group           others type 2
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0
+timestep        1e-4
+{fixes}
+run             10
+run             10
+"""
+WARNING = "moves 42 control points as independent particles"
+for fixes, count in (("fix 1 all nve", 1), ("fix 1 points nvt temp 1 1 1", 1),
+                     ("fix 1 points hd/nve\nfix 2 others nve", 0), ("fix 1 points move linear 0 0 1", 0),
+                     ("fix 1 points rigid single", 0), ("fix 1 points nve/noforce", 0)):
+    for ranks in (1, 2):
+        output = run(PLAIN.format(fixes=fixes), ranks=ranks)
+        lines = [line for line in output.split("\n") if WARNING in line]
+        claim(f"{fixes!r}, {ranks} rank(s): {'one warning' if count else 'no warning'} that it ignores the mass matrix",
+              len(lines) == count and all("use fix hd/nve" in line for line in lines), lines[:1])
+output = run(PLAIN.format(fixes="fix 1 points nve").replace("run             10\n", "") +
+             "minimize 0 0 5 10\n")
+claim("no warning in a minimization", WARNING not in output)
+
+finish()
