@@ -385,10 +385,11 @@ void DumpMembraneImage::draw_surface()
 void DumpMembraneImage::draw_triangle(const std::array<Corner, 3> &triangle,
                                       const std::array<bool, 3> &cut_along, Region *region) const
 {
-  const Eigen::Matrix3d box = box_vectors(*domain), to_fraction = box_vectors(domain->h_inv);
+  const Eigen::Matrix3d box = box_vectors(*domain);
   const Vector3d origin(domain->boxlo);
-  auto fractions = [&](const Vector3d &r) -> Vector3d {
-    return to_fraction * (r - origin);
+  auto fractions = [&](const Vector3d &r) {
+    const Vector3d d = r - origin;
+    return Vector3d(in_box_lengths(*domain, d.data()).data());
   };
   int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
   Vector3d low = fractions(triangle[0].position), high = low;

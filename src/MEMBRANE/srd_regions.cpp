@@ -93,11 +93,8 @@ void SurfaceRegions::locate()
 
 Vector3d SurfaceRegions::fraction(const double *x, imageint image) const
 {
-  const double *inv = domain->h_inv;
-  Vector3d s(inv[0] * x[0] + inv[5] * x[1] + inv[4] * x[2], inv[1] * x[1] + inv[3] * x[2],
-             inv[2] * x[2]);
-  for (int k = 0; k < 3; ++k) s[k] += flag(image, k);
-  return s;
+  const auto s = in_box_lengths(*domain, x);
+  return {s[0] + flag(image, 0), s[1] + flag(image, 1), s[2] + flag(image, 2)};
 }
 
 /* ---------------------------------------------------------------------- */
