@@ -98,12 +98,8 @@ void MeshScene::deal_faces(int groupbit)
 
 void MeshScene::evaluate(int f, FaceTessellation &tessellation, std::vector<LimitPoint> &points)
 {
-  const Topology &topology = mesh.topology();
-  const Face &face = topology.face(f);
-  stencil_points(topology, control, f, stencil);
-  tessellation.evaluate(
-      topology.valences(f), stencil,
-      points);
+  stencil_points(mesh.topology(), control, f, stencil);
+  tessellation.evaluate(mesh.topology().valences(f), stencil, points);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -168,8 +168,7 @@ void SRDSurface::make_triangles(const Topology &topology, const TriangleMesh &co
     for (int k = 0; k < 3; ++k) length += control.edge(face[k], face[(k + 1) % 3]).norm();
     num_edges += 3;
     Membrane_NS::stencil_points(topology, control, f, stencil);
-    cut.evaluate(topology.valences(f),
-                 stencil, points);
+    cut.evaluate(topology.valences(f), stencil, points);
     for (size_t t = 0; t < cut.triangles().size(); ++t) {
       const auto &corners = cut.triangles()[t];
       const auto &triangle =
