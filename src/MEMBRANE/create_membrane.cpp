@@ -41,8 +41,8 @@ using Membrane_NS::TriangleMesh;
 /* ---------------------------------------------------------------------- */
 
 CreateMembrane::CreateMembrane(LAMMPS *lmp) :
-    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), mass(1.0), interpolated(false),
-    centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
+    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), mass(1.0),
+    interpolated(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
 {
 }
 
@@ -60,8 +60,9 @@ void CreateMembrane::command(int narg, char **arg)
     error->all(FLERR, "create_membrane type {} is not one of the {} atom types of the box", arg[0],
                atom->ntypes);
   if (atom->nangletypes < 1)
-    error->all(FLERR, "create_membrane needs an angle type for its faces: add angle/types 1 to "
-                      "create_box");
+    error->all(FLERR,
+               "create_membrane needs an angle type for its faces: add angle/types 1 to "
+               "create_box");
 
   TriangleMesh mesh;
   mesh.periodic = periodic_directions(*domain);
@@ -103,8 +104,12 @@ int CreateMembrane::parse_shape(int narg, char **arg, TriangleMesh &mesh)
   auto need = [&](int n) {
     if (narg < n + 1) utils::missing_cmd_args(FLERR, "create_membrane " + shape, error);
   };
-  auto number = [&](int i) { return utils::numeric(FLERR, arg[i], false, lmp); };
-  auto integer = [&](int i) { return utils::inumeric(FLERR, arg[i], false, lmp); };
+  auto number = [&](int i) {
+    return utils::numeric(FLERR, arg[i], false, lmp);
+  };
+  auto integer = [&](int i) {
+    return utils::inumeric(FLERR, arg[i], false, lmp);
+  };
 
   const auto lattice = mesh.lattice;
   const auto periodic = mesh.periodic;
@@ -127,8 +132,7 @@ int CreateMembrane::parse_shape(int narg, char **arg, TriangleMesh &mesh)
     used = 5;
     const std::string axis = arg[4];
     const int which = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : -1;
-    if (which < 0)
-      error->all(FLERR, "create_membrane cylinder axis {} is not x, y or z", axis);
+    if (which < 0) error->all(FLERR, "create_membrane cylinder axis {} is not x, y or z", axis);
     if (!periodic[which])
       error->all(FLERR, "create_membrane cylinder needs a box that is periodic in {}", axis);
     mesh = Membrane_NS::tube(integer(1), integer(2), number(3), lattice, which);
@@ -191,16 +195,18 @@ void CreateMembrane::parse_options(int narg, char **arg)
       iarg += 2;
     } else if (key == "mass") {
       mass = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-      if (!(mass > 0.0)) error->all(FLERR, "create_membrane mass {} must be positive", arg[iarg + 1]);
+      if (!(mass > 0.0))
+        error->all(FLERR, "create_membrane mass {} must be positive", arg[iarg + 1]);
       iarg += 2;
     } else if (key == "face/type") {
       angle_type = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ANGLE, lmp);
       iarg += 2;
     } else
-      error->all(FLERR,
-                 "Unknown create_membrane keyword {}; known are: center, scale, refine, interpolate, "
-                 "molecule, mass, face/type",
-                 key);
+      error->all(
+          FLERR,
+          "Unknown create_membrane keyword {}; known are: center, scale, refine, interpolate, "
+          "molecule, mass, face/type",
+          key);
   }
   if (angle_type < 1 || angle_type > atom->nangletypes)
     error->all(FLERR, "create_membrane face/type {} is not one of the {} angle types of the box",

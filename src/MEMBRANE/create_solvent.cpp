@@ -20,11 +20,11 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_mesh_shapes.h"
 #include "membrane_random.h"
+#include "mesh_distributed.h"
 #include "region.h"
 
 #include <algorithm>

@@ -21,8 +21,8 @@ CommandStyle(create_solvent,CreateSolvent);
 #define LMP_CREATE_SOLVENT_H
 
 #include "command.h"
-#include "membrane_srd_clearance.h"
 #include "membrane_side.h"
+#include "membrane_srd_clearance.h"
 #include "membrane_triangle_mesh.h"
 
 #include <cstdint>

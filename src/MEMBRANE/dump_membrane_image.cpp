@@ -309,7 +309,12 @@ void DumpMembraneImage::choose_range(MeshScene &scene)
 
   if (auto_range) {
     double mean, deviation;
-    if (!scene.statistics([this](const LimitPoint &p) { return value(p); }, mean, deviation)) return;
+    if (!scene.statistics(
+            [this](const LimitPoint &p) {
+              return value(p);
+            },
+            mean, deviation))
+      return;
     double width = MAX(WIDTH * deviation, LEAST_WIDTH * std::fabs(mean));
     if (width == 0.0) width = 1.0;
     lo = mean - width;
@@ -382,7 +387,9 @@ void DumpMembraneImage::draw_triangle(const std::array<Corner, 3> &triangle,
 {
   const Eigen::Matrix3d box = box_vectors(*domain), to_fraction = box_vectors(domain->h_inv);
   const Vector3d origin(domain->boxlo);
-  auto fractions = [&](const Vector3d &r) -> Vector3d { return to_fraction * (r - origin); };
+  auto fractions = [&](const Vector3d &r) -> Vector3d {
+    return to_fraction * (r - origin);
+  };
   int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
   Vector3d low = fractions(triangle[0].position), high = low;
   for (int c = 1; c < 3; ++c) {

@@ -48,9 +48,9 @@ class DumpMembraneImage : public DumpImage {
 
  private:
   enum class Coloring { MEAN_CURVATURE, GAUSSIAN_CURVATURE, TYPE, MOLECULE } coloring;
-  bool draw_points;    // control points are drawn like other atoms
-  bool in_one_piece;   // closed membranes are, beyond the box if need be
-  bool own_map;        // the user's color map instead of ours
+  bool draw_points;     // control points are drawn like other atoms
+  bool in_one_piece;    // closed membranes are, beyond the box if need be
+  bool own_map;         // the user's color map instead of ours
   bool auto_range;
   double lo, hi;    // values at the ends of the color map
   bool range_reported;
@@ -71,8 +71,8 @@ class DumpMembraneImage : public DumpImage {
   double value(const Membrane_NS::LimitPoint &) const;
   Eigen::Vector3d color(const MeshScene &, int face, const Membrane_NS::LimitPoint &,
                         int point) const;
-  void draw_triangle(const std::array<Membrane_NS::Corner, 3> &, const std::array<bool, 3> &cut_along,
-                     class Region *) const;
+  void draw_triangle(const std::array<Membrane_NS::Corner, 3> &,
+                     const std::array<bool, 3> &cut_along, class Region *) const;
   void draw_pixel(const Membrane_NS::Fragment &) const;
 };
 

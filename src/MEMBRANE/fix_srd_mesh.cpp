@@ -40,10 +40,10 @@ static constexpr double STIFF_MESH = 10.0;
 
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), given(SRDMeshArguments::parse(lmp, narg, arg)), membrane(given.membranes),
-    solvent(lmp, igroup), fluid(lmp, given), influences(lmp, this), streaming(lmp), observables(lmp),
-    aside(lmp, igroup, std::string("not_solvent_of_") + id), have_membranes(false),
-    have_obstacle(false), running(false), membranes_join(false), velocities_set(false),
-    clear_forces(false), stiffness(0.0), sampled(-1), natoms_after_run(-1)
+    solvent(lmp, igroup), fluid(lmp, given), influences(lmp, this), streaming(lmp),
+    observables(lmp), ghost_free(lmp, igroup, std::string("not_solvent_of_") + id),
+    have_membranes(false), have_obstacle(false), running(false), membranes_join(false),
+    velocities_set(false), clear_forces(false), stiffness(0.0), sampled(-1), natoms_after_run(-1)
 {
   time_integrate = 1;
   force_reneighbor = 1;
@@ -98,8 +98,8 @@ void FixSRDMesh::init()
   solvent.refresh();
   check_group();
   influences.init(solvent);
-  aside.init(!given.ghosts);
-  clear_forces = aside.active();
+  ghost_free.init(!given.ghosts);
+  clear_forces = ghost_free.active();
   streaming.find_walls();
   have_membranes = membrane >= 0 && group->count(membrane) > 0;
   if (have_membranes)
@@ -119,15 +119,16 @@ void FixSRDMesh::init_membranes()
   mass->init();
   obstacle->init();
   if (stiffness > 0.0 && comm->me == 0)
-    utils::logmesg(lmp,
-                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
-                   "has none\n",
-                   stiffness, STIFF_MESH);
+    utils::logmesg(
+        lmp,
+        "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
+        "has none\n",
+        stiffness, STIFF_MESH);
 }
 
 /* ----------------------------------------------------------------------
-   impulses shake control points along the fluid membrane, too, where nothing holds them: within a few
-   hundred steps faces would turn over
+   impulses shake control points along the fluid membrane, too, where nothing holds them: within a
+   few hundred steps faces would turn over
 ------------------------------------------------------------------------- */
 
 void *FixSRDMesh::extract(const char *name, int &dim)
@@ -182,10 +183,11 @@ void FixSRDMesh::check_other_solvents()
       if ((atom->mask[i] & both) == both) mine = 1;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
     if (any)
-      error->all(FLERR,
-                 "Fix srd/mesh: membranes of group {} are also those of fix {}: one fix must have all "
-                 "solvent around a membrane",
-                 group->names[membrane], other->id);
+      error->all(
+          FLERR,
+          "Fix srd/mesh: membranes of group {} are also those of fix {}: one fix must have all "
+          "solvent around a membrane",
+          group->names[membrane], other->id);
   }
 }
 
@@ -203,7 +205,7 @@ void FixSRDMesh::prepare_cells()
 
 void FixSRDMesh::setup_pre_exchange()
 {
-  aside.update();
+  ghost_free.update();
 }
 
 void FixSRDMesh::setup_pre_neighbor()
@@ -262,7 +264,7 @@ void FixSRDMesh::kick()
   if (obstacle) obstacle->meetings.velocities_changed_by(most);
 }
 
-// all that is known of its ways is void
+// what is known of where it comes near the surface holds no more
 
 void FixSRDMesh::solvent_changed()
 {
@@ -271,9 +273,10 @@ void FixSRDMesh::solvent_changed()
 
 /* ----------------------------------------------------------------------
    Point masses take part in the collisions of cells in the middle of a step, where their velocities
-   are those of their paths and have the variance kT/m: the place that noise has in fix hd/langevin. At
-   the end of a step velocities are smaller, for a wave of frequency w by (w dt)^2/4 of its energy, and
-   to meet solvent with the one in cells and with the other at the surface would pump energy into it.
+   are those of their paths and have the variance kT/m: the place that noise has in fix hd/langevin.
+   At the end of a step velocities are smaller, for a wave of frequency w by (w dt)^2/4 of its
+   energy, and to meet solvent with the one in cells and with the other at the surface would pump
+   energy into it.
 ------------------------------------------------------------------------- */
 
 void FixSRDMesh::post_integrate()
@@ -312,7 +315,7 @@ void FixSRDMesh::stream_past_membranes(double dt, double until_collision)
 
 void FixSRDMesh::wrap()
 {
-  if (!aside.active() || domain->deform_vremap) return;    // LAMMPS changes velocities, too
+  if (!ghost_free.active() || domain->deform_vremap) return;    // LAMMPS changes velocities, too
   constexpr int BLOCK = SRDGrid::BLOCK;
   int outside[BLOCK];
   for (int first = solvent.first(); first < solvent.last(); first += BLOCK) {
@@ -326,8 +329,8 @@ void FixSRDMesh::wrap()
 }
 
 /* ----------------------------------------------------------------------
-   solvent that has strayed too far goes to its new owner in this step: cells have to find it when it
-   collides next, at the end of a step or in the middle of the next
+   solvent that has strayed too far goes to its new owner in this step: cells have to find it when
+   it collides next, at the end of a step or in the middle of the next
 ------------------------------------------------------------------------- */
 
 bool FixSRDMesh::any_strayed()
@@ -365,7 +368,8 @@ void FixSRDMesh::collide()
 {
   if (domain->box_change) cells->grid.setup(given.cells.size);
   if (membranes_join) obstacle->join_cells(*cells, update->ntimestep, fluid.kT());
-  cells->collide(solvent, update->ntimestep, streaming.walls, fluid.filling(), fluid.mass(), sides());
+  cells->collide(solvent, update->ntimestep, streaming.walls, fluid.filling(), fluid.mass(),
+                 sides());
   if (membranes_join) obstacle->leave_cells(*cells);
   solvent_changed();
 }
@@ -385,14 +389,14 @@ void FixSRDMesh::zero_forces()
 double FixSRDMesh::compute_vector(int i)
 {
   if (!cells) return 0.0;
+  if (update->whichflag == 0 && natoms_after_run >= 0 && atom->natoms != natoms_after_run)
+    error->all(FLERR, "Fix srd/mesh: there are other atoms than in the last run: use run 0");
   if (sampled != update->ntimestep) sample();
   return observables[i];
 }
 
 void FixSRDMesh::sample()
 {
-  if (update->whichflag == 0 && natoms_after_run >= 0 && atom->natoms != natoms_after_run)
-    error->all(FLERR, "Fix srd/mesh: there are other atoms than in the last run: use run 0");
   sampled = update->ntimestep;
   solvent.refresh();
   if (have_obstacle && running) check_sides();
@@ -417,8 +421,8 @@ void FixSRDMesh::check_sides()
   solvent.refresh();
   const bigint crossed = obstacle->check(solvent);
   if (!crossed || given.inside == Inside::IGNORE) return;
-  const std::string text = fmt::format(
-      "Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", crossed);
+  const std::string text =
+      fmt::format("Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", crossed);
   if (given.inside == Inside::ERROR) error->all(FLERR, text);
   if (comm->me == 0) error->warning(FLERR, text + ", and were put back");
 }

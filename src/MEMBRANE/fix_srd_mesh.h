@@ -27,8 +27,8 @@ FixStyle(srd/mesh,FixSRDMesh);
 #include "srd_ghost_free_group.h"
 #include "srd_influences.h"
 #include "srd_mesh_arguments.h"
-#include "srd_obstacle.h"
 #include "srd_observables.h"
+#include "srd_obstacle.h"
 #include "srd_solvent.h"
 #include "srd_streaming.h"
 
@@ -38,9 +38,9 @@ FixStyle(srd/mesh,FixSRDMesh);
 namespace LAMMPS_NS {
 
 /** Solvent of stochastic rotation dynamics around membranes. A step: half a kick if other fixes
-    exert forces on the solvent, streaming once integrators have moved the membranes, half a kick; every N
-    steps a collision in cells, at the end of the step or, if membranes take part in it, halfway through
-    streaming. */
+    exert forces on the solvent, streaming once integrators have moved the membranes, half a kick;
+    every N steps a collision in cells, at the end of the step or, if membranes take part in it,
+    halfway through streaming. */
 class FixSRDMesh : public Fix {
  public:
   FixSRDMesh(class LAMMPS *, int, char **);
@@ -61,8 +61,9 @@ class FixSRDMesh : public Fix {
   void end_of_step() override;
   void post_run() override;
   double compute_vector(int) override;
-  /** "default_regularize", dim 0: a double, the modulus that meshes need among solvent, for pair style
-      helfrich where pair_coeff says nothing; null without membranes. Collective; may be asked before init(). */
+  /** "default_regularize", dim 0: a double, the modulus that meshes need among solvent, for pair
+      style helfrich where pair_coeff says nothing; null without membranes. Collective; may be asked
+      before init(). */
   void *extract(const char *, int &) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -75,7 +76,7 @@ class FixSRDMesh : public Fix {
 
  private:
   const SRDMeshArguments given;
-  const int membrane;          // group, or -1
+  const int membrane;    // group, or -1
 
   // the roles
   SRDSolvent solvent;
@@ -86,16 +87,16 @@ class FixSRDMesh : public Fix {
   std::unique_ptr<HDMass> mass;    // of the membranes; none without a group of them
   std::unique_ptr<SurfaceObstacle> obstacle;
   SRDObservables observables;
-  GhostFreeGroup aside;
+  GhostFreeGroup ghost_free;
 
-  bool have_membranes;         // the group has atoms, as of init()
-  bool have_obstacle;          // so there are membranes, and setup() has been there
-  bool running;                // in a run since setup(), not a minimization
-  bool membranes_join;         // their point masses take part in collisions in cells
-  std::vector<int> side;       // of a membrane, by owned atom
-  bool velocities_set;         // by the first run
-  bool clear_forces;           // LAMMPS does not
-  double stiffness;            // see extract(); 0 if nobody has asked
+  bool have_membranes;      // the group has atoms, as of init()
+  bool have_obstacle;       // so there are membranes, and setup() has been there
+  bool running;             // in a run since setup(), not a minimization
+  bool membranes_join;      // their point masses take part in collisions in cells
+  std::vector<int> side;    // of a membrane, by owned atom
+  bool velocities_set;      // by the first run
+  bool clear_forces;        // LAMMPS does not
+  double stiffness;         // see extract(); 0 if nobody has asked
   bigint sampled, natoms_after_run;
 
   void check_group();

@@ -22,16 +22,17 @@ namespace Membrane_NS {
 
 /** On which side of one connected oriented surface a point is, in a box with periodic images.
 
-    All coordinates are fractional: box vectors have length 1 and are orthogonal, unwrapped. The level
-    of a point is the number of times that a ray from it down along `axis` passes through the surface
-    against its normal, less the times it does so along its normal, in all periodic images: going
-    through the surface in the direction of its normal raises the level by 1. A closed surface with
-    outward normals has level 0 outside and -1 inside. A sheet that continues through the box sideways
-    has level n + 1 between its images n and n + 1, counted from the sheet itself as image 0 (the
-    other way round if its normal points down the axis); without images, 0 and 1.
+    All coordinates are fractional: box vectors have length 1 and are orthogonal, unwrapped. The
+    level of a point is the number of times that a ray from it down along `axis` passes through the
+    surface against its normal, less the times it does so along its normal, in all periodic images:
+    going through the surface in the direction of its normal raises the level by 1. A closed surface
+    with outward normals has level 0 outside and -1 inside. A sheet that continues through the box
+    sideways has level n + 1 between its images n and n + 1, counted from the sheet itself as image
+    0 (the other way round if its normal points down the axis); without images, 0 and 1.
 
-    The axis must be one along which the surface does not continue. A ray through an edge counts once:
-    which triangle has it depends on the edge alone, as if the point were moved by a tiny amount. */
+    The axis must be one along which the surface does not continue. A ray through an edge counts
+    once: which triangle has it depends on the edge alone, as if the point were moved by a tiny
+    amount. */
 class SurfaceSide {
  public:
   SurfaceSide() = default;

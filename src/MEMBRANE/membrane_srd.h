@@ -39,9 +39,9 @@ double mean_free_path(double kT, double mass, double step);
 /** Particles as flat arrays. One with a negative cell takes no part. */
 struct SRDParticles {
   int count = 0;
-  double *velocity = nullptr;         ///< [count][3]; changed by the collision
-  const double *mass = nullptr;       ///< [count]
-  const int *cell = nullptr;          ///< [count]
+  double *velocity = nullptr;      ///< [count][3]; changed by the collision
+  const double *mass = nullptr;    ///< [count]
+  const int *cell = nullptr;       ///< [count]
   // rule AT_A only
   const double *offset = nullptr;     ///< [count][3], position less the centre of the cell
   const uint64_t *label = nullptr;    ///< [count], what random velocities are keyed by
@@ -53,10 +53,11 @@ struct SRDParticles {
     a velocity, apply() it.
 
     SRD: velocities relative to the cell's mean turn by a fixed angle about an axis that is uniform
-    on the sphere [A. Malevanets and R. Kapral, J. Chem. Phys. 110, 8605 (1999)]: momentum and energy
-    are kept. With the thermostat the relative velocities are also scaled so that their energy is
-    drawn from the canonical distribution, a Gamma distribution of 3(N - 1)/2 [C.-C. Huang,
-    A. Chatterji, G. Sutmann, G. Gompper and R. G. Winkler, J. Comput. Phys. 229, 168 (2010)].
+    on the sphere [A. Malevanets and R. Kapral, J. Chem. Phys. 110, 8605 (1999)]: momentum and
+    energy are kept. With the thermostat the relative velocities are also scaled so that their
+    energy is drawn from the canonical distribution, a Gamma distribution of 3(N - 1)/2 [C.-C.
+    Huang, A. Chatterji, G. Sutmann, G. Gompper and R. G. Winkler, J. Comput. Phys. 229, 168
+    (2010)].
 
     AT_A: velocities are drawn anew from the Maxwell distribution, less what changes the cell's
     momentum and its angular momentum [H. Noguchi, N. Kikuchi and G. Gompper, Europhys. Lett. 78,

@@ -29,15 +29,15 @@ static constexpr double ROUNDING = 1.0e-9;
 // far above rounding of floats
 static constexpr double FLOATS = 1.0e-6;
 
-// of the margin: more after a list that did not last, less after one that had enough to spare; and of
-// the horizon
+// of the margin: more after a list that did not last, less after one that had enough to spare; and
+// of the horizon
 static constexpr double MORE = 1.25, LESS = 0.98, ENOUGH = 0.8;
 static constexpr double LONGER = 1.1;
 
 /* ---------------------------------------------------------------------- */
 
-void ApproachList::begin(SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices, int num_points,
-                         double horizon, double step, double room)
+void ApproachList::begin(SurfaceGrid &grid, const std::vector<SurfaceVertex> &vertices,
+                         int num_points, double horizon, double step, double room)
 {
   if (used_ > margin_) {
     if (margin_ < most_)
@@ -98,7 +98,8 @@ void ApproachList::offer(const SurfaceGrid &grid, int first, int last, const dou
     grid.find_cubes(xs, n, cubes);
     for (int i = 0; i < n; ++i)
       flight[i] = static_cast<float>(
-          reach * (vs[3 * i] * vs[3 * i] + vs[3 * i + 1] * vs[3 * i + 1] + vs[3 * i + 2] * vs[3 * i + 2]));
+          reach *
+          (vs[3 * i] * vs[3 * i] + vs[3 * i + 1] * vs[3 * i + 1] + vs[3 * i + 2] * vs[3 * i + 2]));
     int num_near = 0;
     for (int i = 0; i < n; ++i) {
       near[num_near] = i;
@@ -118,7 +119,8 @@ void ApproachList::offer(const SurfaceGrid &grid, int first, int last, const dou
 }
 
 /* ----------------------------------------------------------------------
-   what is near is looked at cube by cube, so that the triangles of one are at hand for all its points
+   what is near is looked at cube by cube, so that the triangles of one are at hand for all its
+   points
 ------------------------------------------------------------------------- */
 
 void ApproachList::end(SurfaceGrid &grid)
@@ -141,7 +143,8 @@ void ApproachList::end(SurfaceGrid &grid)
     if (batch_.triangle.empty()) continue;
     const Vector3d end = x + way;
     SurfaceGrid::measure_along(batch_, x.data(), end.data());
-    const int first = static_cast<int>(triangles_.size()), n = static_cast<int>(batch_.triangle.size());
+    const int first = static_cast<int>(triangles_.size()),
+              n = static_cast<int>(batch_.triangle.size());
     triangles_.resize(first + n);
     int *listed = triangles_.data() + first, num_listed = 0, num_near = 0;
     for (int i = 0; i < n; ++i) {
@@ -167,9 +170,9 @@ void ApproachList::add(SurfaceGrid &grid, int point, const Vector3d &x, const Ve
 }
 
 /* ----------------------------------------------------------------------
-   Triangles are found where they are at the start of the step, up to `moved_` from where they were. Those
-   that the point may meet on its line, and for the case that it does, those that it may meet later in
-   the same step
+   Triangles are found where they are at the start of the step, up to `moved_` from where they were.
+   Those that the point may meet on its line, and for the case that it does, those that it may meet
+   later in the same step
 ------------------------------------------------------------------------- */
 
 void ApproachList::list(SurfaceGrid &grid, int point, const Vector3d &x, const Vector3d &velocity)
@@ -200,8 +203,8 @@ void ApproachList::enter(int point, const Vector3d &x, const Vector3d &velocity,
 }
 
 /* ----------------------------------------------------------------------
-   If it may not meet a triangle in this step, neither will it until it and they have come as far as it now
-   is away from them
+   If it may not meet a triangle in this step, neither will it until it and they have come as far as
+   it now is away from them
 ------------------------------------------------------------------------- */
 
 bool ApproachList::look(const SurfaceGrid &grid, int e, double duration, double extra)

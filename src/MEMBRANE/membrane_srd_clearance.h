@@ -33,7 +33,7 @@ class SurfaceClearance {
   const TriangleMesh mesh_;
   double distance_;
   Eigen::Matrix3d to_fraction_;
-  Eigen::Vector3d lo_, hi_;           // fractional bounds of the bins
+  Eigen::Vector3d lo_, hi_;    // fractional bounds of the bins
   std::array<int, 3> bins_;
   std::vector<std::vector<int>> triangles_;    // of a bin
 

@@ -62,7 +62,7 @@ struct Cubic {
   {
     double t = 0.5 * (a + b);
     for (int i = 0; i < 100; ++i) {
-      const double value = (*this)(t) - level;
+      const double value = (*this)(t) -level;
       (value > 0.0 ? a : b) = t;
       const double slope_here = slope(t);
       double next = slope_here < 0.0 ? t - value / slope_here : 0.5 * (a + b);
@@ -130,8 +130,8 @@ std::array<double, 3> Membrane_NS::nearest_on_triangle(const Vector3d &x, const 
                                                        const Vector3d &b, const Vector3d &c)
 {
   const Vector3d ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
-  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx),
-               d5 = ab.dot(cx), d6 = ac.dot(cx);
+  const double d1 = ab.dot(ax), d2 = ac.dot(ax), d3 = ab.dot(bx), d4 = ac.dot(bx), d5 = ab.dot(cx),
+               d6 = ac.dot(cx);
   if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
   if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
   if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};

@@ -60,9 +60,9 @@ class TriangleCollision {
             double begin, double end, bool touching, TriangleHit &hit) const;
 };
 
-/** The impulse J that a point of mass m receives from a surface point x = sum g_a r_a of point masses d_a:
-    v changes by J/m, w_a by -g_a J/d_a. With the relative velocity u = v - sum g_a w_a and the effective
-    inverse mass 1/mu = 1/m + sum g_a^2/d_a,
+/** The impulse J that a point of mass m receives from a surface point x = sum g_a r_a of point
+    masses d_a: v changes by J/m, w_a by -g_a J/d_a. With the relative velocity u = v - sum g_a w_a
+    and the effective inverse mass 1/mu = 1/m + sum g_a^2/d_a,
 
       slip:     J = -2 mu (u.n) n        no slip:  J = -2 mu u
 

@@ -18,8 +18,9 @@
 
 namespace Membrane_NS {
 
-/** The velocity of a control point is a mean of the velocities of many vertices, qdot_j = sum_a l_a w_a
-    with the row l of the inverse limit mask, L^-1. An impulse J on it changes w_a by l_a J/d_a. */
+/** The velocity of a control point is a mean of the velocities of many vertices, qdot_j = sum_a l_a
+    w_a with the row l of the inverse limit mask, L^-1. An impulse J on it changes w_a by l_a J/d_a.
+    */
 class ControlWeights {
  public:
   virtual ~ControlWeights() = default;

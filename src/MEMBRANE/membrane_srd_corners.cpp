@@ -15,11 +15,10 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-
 #include "membrane_srd_corners.h"
 
-#include "membrane_srd_inverse_mask.h"
 #include "membrane_limit_basis.h"
+#include "membrane_srd_inverse_mask.h"
 #include "membrane_tessellation.h"
 
 #include <algorithm>
@@ -159,8 +158,8 @@ SurfaceCorners::SurfaceCorners(const Topology &topology, int n, const Seams &sea
           }
         }
 
-        // with z of control points in box vectors, a mass is at L z + its own spokes to images, and the
-        // corner at sum W (z + image)
+        // with z of control points in box vectors, a mass is at L z + its own spokes to images, and
+        // the corner at sum W (z + image)
 
         if (periodic) {
           for (size_t k = 0; k < stencil.size(); ++k)
@@ -191,7 +190,9 @@ SurfaceCorners::SurfaceCorners(const Topology &topology, int n, const Seams &sea
         rows[c][0].second += 1.0 - total;
         if (periodic && keep < touched.size())
           images.from(touched[0], touched.data() + keep, touched.size() - keep,
-                      [&](int a, const Image &image) { shifts_[c] -= sum[a] * as_vector(image); });
+                      [&](int a, const Image &image) {
+                        shifts_[c] -= sum[a] * as_vector(image);
+                      });
         for (int a : touched) sum[a] = 0.0;
       }
     for (const Face &t : cut.triangles())

@@ -24,15 +24,15 @@
 
 namespace Membrane_NS {
 
-/** The corners of a finer triangulation of the limit surface, as means of the limit positions of the
-    vertices, which are the point masses of the surface.
+/** The corners of a finer triangulation of the limit surface, as means of the limit positions of
+    the vertices, which are the point masses of the surface.
 
-    Faces are cut into n x n triangles with corners on the limit surface, numbered as in tessellate():
-    the vertices come first. A corner is r_c = sum_i W_ci q_i with the weights of LimitBasis, and q =
-    L^-1 r with the limit mask L, so r_c = sum_a G_ca r_a, G = W L^-1. Rows of G sum to 1 and fall
-    off by two thirds from ring to ring; they are cut off where 1e-4 of them is left, which keeps some
-    150 masses, and moves corners by less than 1e-3 of an edge. Depends on the topology alone, and
-    on which edges pass through the boundary of a periodic box. */
+    Faces are cut into n x n triangles with corners on the limit surface, numbered as in
+    tessellate(): the vertices come first. A corner is r_c = sum_i W_ci q_i with the weights of
+    LimitBasis, and q = L^-1 r with the limit mask L, so r_c = sum_a G_ca r_a, G = W L^-1. Rows of G
+    sum to 1 and fall off by two thirds from ring to ring; they are cut off where 1e-4 of them is
+    left, which keeps some 150 masses, and moves corners by less than 1e-3 of an edge. Depends on
+    the topology alone, and on which edges pass through the boundary of a periodic box. */
 class SurfaceCorners {
  public:
   using Entry = std::pair<int, double>;
@@ -42,7 +42,8 @@ class SurfaceCorners {
     const Entry *end() const { return last; }
   };
 
-  /// For each vertex v and each of ring(v): the box vectors from the place of that to its image next to v.
+  /// For each vertex v and each of ring(v): the box vectors from the place of that to its image
+  /// next to v.
   using Seams = std::vector<std::vector<std::array<int, 3>>>;
 
   /// Without seams if no face passes through the boundary of the box.
@@ -55,8 +56,8 @@ class SurfaceCorners {
   /// The corners that depend on a mass, and G.
   Row corners_of(int mass) const { return row(dependents_, dependents_start_, mass); }
 
-  /** In box vectors, from the mean of the masses to the corner, if masses are where their vertices are, and
-      the corner is next to the place of the first vertex of the first face that has it. */
+  /** In box vectors, from the mean of the masses to the corner, if masses are where their vertices
+      are, and the corner is next to the place of the first vertex of the first face that has it. */
   const Eigen::Vector3d &shift(int corner) const { return shifts_[corner]; }
 
   /// The triangles, n^2 for each face of the mesh in turn.

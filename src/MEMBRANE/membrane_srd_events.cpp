@@ -56,8 +56,8 @@ int CollisionEvents::add_point(const MovingPoint &path, double inverse_mass, int
                                double reach)
 {
   const int pair = static_cast<int>(pairs_.size());
-  points_.push_back({path, path, Vector3d::Zero(), inverse_mass, reach, tag, pair, pair, 0, 0, -1,
-                     false});
+  points_.push_back(
+      {path, path, Vector3d::Zero(), inverse_mass, reach, tag, pair, pair, 0, 0, -1, false});
   return static_cast<int>(points_.size()) - 1;
 }
 
@@ -158,8 +158,8 @@ void CollisionEvents::foresee(int p, double now)
     corners[k].origin += triangle.shift[k];
     corners[k].velocity += triangle.drift[k];
   }
-  pair.hits = collision_.find(point.now, corners, pair.side, now, duration_, point.touching == p,
-                              pair.hit);
+  pair.hits =
+      collision_.find(point.now, corners, pair.side, now, duration_, point.touching == p, pair.hit);
 }
 
 // the first of what is foreseen for a point counts
@@ -303,10 +303,10 @@ void CollisionEvents::share(int control)
 
 /* ----------------------------------------------------------------------
    On the surface, with velocities of the time of the collision; where the point would not leave the
-   surface for that, as when it grazes, with those of the paths, and also at an edge: to leave one triangle
-   is not to leave the other then, and a velocity that is reversed at both would be so for ever. Seen
-   backwards in time the choice is the same: it depends on where the collision is and on whether both
-   the velocity before and that after point the right way.
+   surface for that, as when it grazes, with those of the paths, and also at an edge: to leave one
+   triangle is not to leave the other then, and a velocity that is reversed at both would be so for
+   ever. Seen backwards in time the choice is the same: it depends on where the collision is and on
+   whether both the velocity before and that after point the right way.
 ------------------------------------------------------------------------- */
 
 Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, double now)
@@ -335,8 +335,8 @@ Vector3d CollisionEvents::impulse_of(const Pair &pair, const Point &point, doubl
 
 /* ----------------------------------------------------------------------
    Eq. 44 of the theory: alpha = 2 (v - qdot_i).n / (1/m + (M^-1)_ii) on the nearest control point,
-   with qdot_i = sum l_a w_a and (M^-1)_ii = sum l_a^2/d_a. Returns whether that makes the point leave
-   the surface.
+   with qdot_i = sum l_a w_a and (M^-1)_ii = sum l_a^2/d_a. Returns whether that makes the point
+   leave the surface.
 ------------------------------------------------------------------------- */
 
 bool CollisionEvents::hit_control(const Pair &pair, const Point &point, SurfaceImpulse &done)

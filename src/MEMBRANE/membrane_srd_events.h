@@ -29,11 +29,11 @@ namespace Membrane_NS {
 /// An impulse that the surface received.
 struct SurfaceImpulse {
   double time;
-  int64_t tag;                      ///< of the point that it came from
-  std::array<int, 3> vertex;        ///< of the triangle
-  std::array<double, 3> weight;     ///< barycentric, of the place where it was hit
+  int64_t tag;                     ///< of the point that it came from
+  std::array<int, 3> vertex;       ///< of the triangle
+  std::array<double, 3> weight;    ///< barycentric, of the place where it was hit
   Eigen::Vector3d impulse;
-  int control;                      ///< the control point that took it, or -1: the three vertices
+  int control;    ///< the control point that took it, or -1: the three vertices
 
   bool operator==(const SurfaceImpulse &b) const
   {
@@ -45,16 +45,16 @@ struct SurfaceImpulse {
 /** All collisions of one time step between points and a surface, in the order of time.
 
     Between collisions points and vertices move on straight lines. A collision turns the point and
-    the three vertices of the triangle, or the masses that these are means of and all vertices that hang
-    on those, and what was foreseen for points near these vertices is foreseen anew: the step is the exact motion of the system of point masses with hard contacts,
-    so it keeps energy, momentum and angular momentum to rounding, is reversible, and preserves
-    volume in phase space.
+    the three vertices of the triangle, or the masses that these are means of and all vertices that
+    hang on those, and what was foreseen for points near these vertices is foreseen anew: the step
+    is the exact motion of the system of point masses with hard contacts, so it keeps energy,
+    momentum and angular momentum to rounding, is reversible, and preserves volume in phase space.
 
     That is the motion without forces, which an integrator lets act at the ends of a step. Half a
     step's kick at either end is as much as a force that acts all the time: its work on the way is
-    then right for straight lines, not for those that turn at a time s after the middle of the step by
-    some dw, and so end up s dw from where they would have been, had they turned in the middle. The
-    energy that costs, -s a.dw of each mass, is what a collision has to give, too, and does if
+    then right for straight lines, not for those that turn at a time s after the middle of the step
+    by some dw, and so end up s dw from where they would have been, had they turned in the middle.
+    The energy that costs, -s a.dw of each mass, is what a collision has to give, too, and does if
     velocities in it are those of its time, w + s a.
 
     Fill with begin(), add_point() and add_pair(), then run(), as often as impulses from outside
@@ -63,11 +63,12 @@ class CollisionEvents {
  public:
   struct Settings {
     bool no_slip = false;
-    /** If given, impulses act on the control point of the nearest corner (Eq. 44 of the theory): they
-        are normal to the surface whatever no_slip says, and angular momentum is not kept. Where the
-        point would not leave the surface, the impulse acts on the surface after all. */
+    /** If given, impulses act on the control point of the nearest corner (Eq. 44 of the theory):
+        they are normal to the surface whatever no_slip says, and angular momentum is not kept.
+        Where the point would not leave the surface, the impulse acts on the surface after all. */
     ControlWeights *control = nullptr;
-    /// If given, vertices are the corners of a finer surface and these are its masses; not with control.
+    /// If given, vertices are the corners of a finer surface and these are its masses; not with
+    /// control.
     const SurfaceCorners *corners = nullptr;
     const std::vector<double> *inverse_masses = nullptr;
     double contact = 1.0e-10;    ///< see TriangleCollision
@@ -100,8 +101,8 @@ class CollisionEvents {
 
   enum class Outcome {
     DONE,
-    POINT_STRAYED,     ///< a point came further than its reach: pairs are missing
-    VERTEX_STRAYED     ///< a vertex did
+    POINT_STRAYED,    ///< a point came further than its reach: pairs are missing
+    VERTEX_STRAYED    ///< a vertex did
   };
   Outcome run(const std::vector<SurfaceImpulse> &from_outside = {});
 

@@ -25,7 +25,7 @@
 using namespace Membrane_NS;
 
 static constexpr double TOLERANCE = 1.0e-16;
-// rows are forgotten when they have so many entries in all
+// known rows are dropped when they have so many entries in all
 static constexpr size_t MOST_ENTRIES = 8000000;
 
 /* ---------------------------------------------------------------------- */
@@ -58,8 +58,8 @@ const ControlWeights::Row &InverseMask::row(int v)
 }
 
 /* ----------------------------------------------------------------------
-   row v of L^-1 is y with L^T y = 1 at v. With e the spokes, L = diag(e) S and S symmetric, so
-   L (e y) = e at v: Chebyshev's iteration as in MassOperator, on vertices that it has reached so far
+   row v of L^-1 is y with L^T y = 1 at v. With e the spokes, L = diag(e) S and S symmetric, so L (e
+   y) = e at v: Chebyshev's iteration as in MassOperator, on vertices that it has reached so far
 ------------------------------------------------------------------------- */
 
 ControlWeights::Row InverseMask::solve(int v)

@@ -23,8 +23,8 @@
 namespace Membrane_NS {
 
 /** Rows of L^-1, the inverse of the limit mask r = L q, worked out when asked for. They fall off
-    exponentially with the distance on the mesh, so one takes a neighbourhood, not the mesh; each rank
-    can find any of them, for they depend on the topology alone. Exact to 1e-15. */
+    exponentially with the distance on the mesh, so one takes a neighbourhood, not the mesh; each
+    rank can find any of them, for they depend on the topology alone. Exact to 1e-15. */
 class InverseMask : public ControlWeights {
  public:
   /// The topology must outlive this.

@@ -30,8 +30,8 @@ struct SurfaceFaces {
   std::vector<std::array<std::array<int, 3>, 3>> seams;
 };
 
-/// A vertex of the surface: a point mass, or with inverse mass 0 one that nothing deflects; of a finer
-/// surface, a mean of such masses.
+/// A vertex of the surface: a point mass, or with inverse mass 0 one that nothing deflects; of a
+/// finer surface, a mean of such masses.
 struct SurfaceVertex {
   MovingPoint path;
   double inverse_mass = 0.0;                                 ///< not of a finer surface
@@ -45,8 +45,8 @@ struct SurfaceTriangle {
   std::array<Eigen::Vector3d, 3> drift;    ///< velocity of that: images in a box that deforms
 };
 
-/// What has to happen in a step for a point to meet a triangle: nothing but the motion that is known at its
-/// start; or vertices are deflected, by up to their slack; or the point turns.
+/// What has to happen in a step for a point to meet a triangle: nothing but the motion that is
+/// known at its start; or vertices are deflected, by up to their slack; or the point turns.
 enum class MeetingNeeds { NOTHING, DEFLECTION, TURN };
 
 /// What collisions change of a point mass of the surface.

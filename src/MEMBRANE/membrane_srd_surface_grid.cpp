@@ -58,8 +58,8 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
 }
 
 /* ----------------------------------------------------------------------
-   list in each cube the triangles within `pad`: those whose box and whose plane come so near; the one
-   nearest to its centre leads
+   list in each cube the triangles within `pad`: those whose box and whose plane come so near; the
+   one nearest to its centre leads
 ------------------------------------------------------------------------- */
 
 void SurfaceGrid::fill(double pad)
@@ -77,12 +77,15 @@ void SurfaceGrid::fill(double pad)
   visit_cubes(pad, [&](int t, int first, int last, double height, double rise) {
     const Plane &plane = this->plane(t);
     const int row = first / size_[0];
-    const double y = lo_[1] + spacing_ * (row % size_[1] + 0.5), z = lo_[2] + spacing_ * (row / size_[1] + 0.5);
-    const double beside = std::max({plane.lo[1] - y, y - plane.hi[1], plane.lo[2] - z, z - plane.hi[2]});
+    const double y = lo_[1] + spacing_ * (row % size_[1] + 0.5),
+                 z = lo_[2] + spacing_ * (row / size_[1] + 0.5);
+    const double beside =
+        std::max({plane.lo[1] - y, y - plane.hi[1], plane.lo[2] - z, z - plane.hi[2]});
     for (int cube = first; cube <= last; ++cube, height += rise) {
       list_[next[cube]++] = t;
       const double x = lo_[0] + spacing_ * (cube - row * size_[0] + 0.5);
-      const double distance = std::max({std::fabs(height), beside, plane.lo[0] - x, x - plane.hi[0]});
+      const double distance =
+          std::max({std::fabs(height), beside, plane.lo[0] - x, x - plane.hi[0]});
       if (distance >= nearest[cube]) continue;
       nearest[cube] = distance;
       lead[cube] = t;
@@ -92,8 +95,8 @@ void SurfaceGrid::fill(double pad)
 }
 
 /* ----------------------------------------------------------------------
-   rows of cubes that a triangle is listed in: visit(triangle, first cube, last, height of the first one's
-   centre over the plane, what it rises from each to the next)
+   rows of cubes that a triangle is listed in: visit(triangle, first cube, last, height of the first
+   one's centre over the plane, what it rises from each to the next)
 ------------------------------------------------------------------------- */
 
 template <class Visit> void SurfaceGrid::visit_cubes(double pad, const Visit &visit)
@@ -124,15 +127,17 @@ template <class Visit> void SurfaceGrid::visit_cubes(double pad, const Visit &vi
         } else if (std::fabs(height) > within + (last + 1) * room)
           continue;
         const int row = (z * size_[1] + y) * size_[0] + from[0];
-        if (first <= last) visit(static_cast<int>(t), row + first, row + last, height + first * rise, rise);
+        if (first <= last)
+          visit(static_cast<int>(t), row + first, row + last, height + first * rise, rise);
       }
   }
 }
 
 /* ----------------------------------------------------------------------
-   Cubes to the next one with triangles, diagonally, too: those with triangles spread out by one cube
-   in each direction, and who has not been reached counts. From a place n cubes away, a straight line
-   to a triangle passes n - 1 cubes before it comes to one within `pad` of that triangle.
+   Cubes to the next one with triangles, diagonally, too: those with triangles spread out by one
+   cube in each direction, and who has not been reached counts. From a place n cubes away, a
+   straight line to a triangle passes n - 1 cubes before it comes to one within `pad` of that
+   triangle.
 ------------------------------------------------------------------------- */
 
 void SurfaceGrid::find_distances()
@@ -179,10 +184,10 @@ void SurfaceGrid::find_distances()
 
 /* ---------------------------------------------------------------------- */
 
-bool SurfaceGrid::is_valid_for(const std::vector<SurfaceVertex> &vertices,
-                               const Matrix3d &lattice)
+bool SurfaceGrid::is_valid_for(const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice)
 {
-  if (!is_built() || vertices.size() != built_at_.size() || lattice != this->lattice()) return false;
+  if (!is_built() || vertices.size() != built_at_.size() || lattice != this->lattice())
+    return false;
   const double skin_squared = settings_.skin * settings_.skin;
   double most_squared = 0.0;
   for (size_t v = 0; v < vertices.size(); ++v) {
@@ -245,8 +250,8 @@ void SurfaceGrid::find_cubes(const double *x, int n, int *cubes) const
   for (int i = 0; i < n; ++i) {
     const double s0 = (x[3 * i] - lo0) * scale, s1 = (x[3 * i + 1] - lo1) * scale,
                  s2 = (x[3 * i + 2] - lo2) * scale;
-    const bool inside = (s0 >= 0.0) & (s0 < size0) & (s1 >= 0.0) & (s1 < size1) & (s2 >= 0.0) &
-        (s2 < size2);
+    const bool inside =
+        (s0 >= 0.0) & (s0 < size0) & (s1 >= 0.0) & (s1 < size1) & (s2 >= 0.0) & (s2 < size2);
     const int at0 = static_cast<int>(inside ? s0 : 0.0), at1 = static_cast<int>(inside ? s1 : 0.0),
               at2 = static_cast<int>(inside ? s2 : 0.0);
     cubes[i] = inside ? at2 * layer + at1 * row + at0 : -1;
@@ -266,7 +271,9 @@ bool SurfaceGrid::find(const Vector3d &x, double reach, std::vector<int> &found)
   Range range;
   const Vector3d beyond = Vector3d::Constant(std::max(0.0, reach + most_moves() - listed_));
   if (!cubes_of(x - beyond, x + beyond, range)) return false;
-  collect(range, found, [&](int t) { return comes_within(t, x.data(), reach); });
+  collect(range, found, [&](int t) {
+    return comes_within(t, x.data(), reach);
+  });
   return true;
 }
 
@@ -339,5 +346,6 @@ void SurfaceGrid::measure_along(Batch &batch, const double *x, const double *end
 double SurfaceGrid::memory_usage() const
 {
   return SurfaceImages::memory_usage() + layers_.memory_usage() + away_.capacity() +
-      sizeof(int) * (start_.capacity() + list_.capacity()) + sizeof(Vector3d) * built_at_.capacity();
+      sizeof(int) * (start_.capacity() + list_.capacity()) +
+      sizeof(Vector3d) * built_at_.capacity();
 }

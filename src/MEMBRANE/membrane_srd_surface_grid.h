@@ -27,8 +27,8 @@ namespace Membrane_NS {
 /** Finds the triangles of a moving surface that a moving point may meet.
 
     Space is cut into cubes; a cube knows the triangles, in whichever periodic image, that came
-    within `skin` and `reach` of it when the grid was built, or if there are none, how many cubes away
-    is one that does. The grid is valid until a vertex has moved by more than `skin`. */
+    within `skin` and `reach` of it when the grid was built, or if there are none, how many cubes
+    away is one that does. The grid is valid until a vertex has moved by more than `skin`. */
 class SurfaceGrid : public SurfaceImages {
   static constexpr int MOST_AWAY = 4;    // cubes are counted so far
 
@@ -56,8 +56,8 @@ class SurfaceGrid : public SurfaceImages {
   /// Triangles that may come within `reach` of x in this step, each once; false if that goes
   /// beyond the grid.
   bool find(const Eigen::Vector3d &x, double reach, std::vector<int> &found);
-  /// Triangles that are now within `tube` of the straight line from x to `end`, and maybe others, each
-  /// once, and how far away the nearest is, or less; false if that goes beyond the grid.
+  /// Triangles that are now within `tube` of the straight line from x to `end`, and maybe others,
+  /// each once, and how far away the nearest is, or less; false if that goes beyond the grid.
   bool find_along(const Eigen::Vector3d &x, const Eigen::Vector3d &end, double tube,
                   std::vector<int> &found, double &nearest);
 
@@ -71,7 +71,8 @@ class SurfaceGrid : public SurfaceImages {
   Distances distances(double tube) const;
   /// The cubes of n places, three numbers each; -1 for those beyond the grid.
   void find_cubes(const double *x, int n, int *cubes) const;
-  /// See SurfaceLayers: of the triangles where they are now; then points that pass them by are left out.
+  /// See SurfaceLayers: of the triangles where they are now; then points that pass them by are left
+  /// out.
   void measure_layers() { layers_.measure(*this); }
   static constexpr int BLOCK = SurfaceLayers::BLOCK;
   int keep_passing(const double *x, const double *velocity, const int *cubes, double time,
@@ -79,7 +80,8 @@ class SurfaceGrid : public SurfaceImages {
   {
     return layers_.keep_passing(x, velocity, cubes, time, margin, listed_, which, n);
   }
-  /// The triangles that a cube knows, in arrays by coordinate: for many points in it, one after the other.
+  /// The triangles that a cube knows, in arrays by coordinate: for many points in it, one after the
+  /// other.
   struct Batch {
     std::vector<int> triangle;
     std::array<std::vector<double>, 3> normal, lo, hi;
@@ -103,8 +105,9 @@ class SurfaceGrid : public SurfaceImages {
   double spacing_ = 0.0, inverse_spacing_ = 0.0;
   std::array<int, 3> size_ = {0, 0, 0};
   std::vector<Eigen::Vector3d> built_at_;
-  double listed_ = 0.0;          // cubes know all triangles that are nearer than that now
-  std::vector<uint8_t> away_;    // of a cube: how many cubes to one with triangles or beyond the grid, or more
+  double listed_ = 0.0;    // cubes know all triangles that are nearer than that now
+  // of a cube: how many cubes to one with triangles or beyond the grid, or more
+  std::vector<uint8_t> away_;
   std::vector<int> start_, list_;
   SurfaceLayers layers_;
   std::vector<int> seen_;

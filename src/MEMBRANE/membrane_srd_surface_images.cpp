@@ -29,9 +29,9 @@ using Eigen::Vector3d;
 /* ---------------------------------------------------------------------- */
 
 void SurfaceImages::find_images(const SurfaceFaces &surface,
-                                const std::vector<SurfaceVertex> &vertices,
-                                const Matrix3d &lattice, const std::array<bool, 3> &periodic,
-                                const Vector3d &lo, const Vector3d &hi, double pad)
+                                const std::vector<SurfaceVertex> &vertices, const Matrix3d &lattice,
+                                const std::array<bool, 3> &periodic, const Vector3d &lo,
+                                const Vector3d &hi, double pad)
 {
   lattice_ = lattice;
   list_images(surface, vertices, periodic, lo, hi, pad);
@@ -149,7 +149,8 @@ void SurfaceImages::begin(const std::vector<SurfaceVertex> &vertices, double dur
         triangles_[t].shift[k] = lattice_ * images;
         triangles_[t].drift[k] = rate * images;
       }
-    const Vector3d &a = corner_at_[corner[0]], &b = corner_at_[corner[1]], &c = corner_at_[corner[2]];
+    const Vector3d &a = corner_at_[corner[0]], &b = corner_at_[corner[1]],
+                   &c = corner_at_[corner[2]];
     Vector3d normal = (b - a).cross(c - a);
     const double size = normal.norm();
     if (size > 0.0) normal /= size;

@@ -23,10 +23,11 @@
 
 namespace Membrane_NS {
 
-/** The triangles of a moving surface in all their periodic images that come near a region of space, what
-    they do in a step, and which points may meet one of them. */
+/** The triangles of a moving surface in all their periodic images that come near a region of space,
+    what they do in a step, and which points may meet one of them. */
 class SurfaceImages {
-  // what undeflected vertices do not need of the slack: the rest is far above the tolerance of contacts
+  // what undeflected vertices do not need of the slack: the rest is far above the tolerance of
+  // contacts
   static constexpr double MOST_OF_IT = 0.999;
 
  public:
@@ -38,7 +39,8 @@ class SurfaceImages {
     bool operator==(const Image &b) const { return face == b.face && lattice == b.lattice; }
   };
 
-  /// Those that come within `pad` of the region between lo and hi. Lattice columns are the box vectors.
+  /// Those that come within `pad` of the region between lo and hi. Lattice columns are the box
+  /// vectors.
   void find_images(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
                    const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
                    const Eigen::Vector3d &lo, const Eigen::Vector3d &hi, double pad);
@@ -48,8 +50,8 @@ class SurfaceImages {
 
   // === A step
 
-  /// Work out what the triangles do in this step; vertices may be deflected by up to `slack`. rate: at
-  /// which the lattice changes.
+  /// Work out what the triangles do in this step; vertices may be deflected by up to `slack`. rate:
+  /// at which the lattice changes.
   void begin(const std::vector<SurfaceVertex> &vertices, double duration, double slack,
              const Eigen::Matrix3d &rate = Eigen::Matrix3d::Zero());
   const std::vector<SurfaceTriangle> &triangles() const { return triangles_; }
@@ -72,8 +74,9 @@ class SurfaceImages {
   {
     return off(triangle, x) <= reach + planes_[triangle].moves;
   }
-  /// How far from a triangle the straight line from x to `end` is at the start of the step, or less: it is at
-  /// least as far from it as from its plane, and as from the box around it along each axis.
+  /// How far from a triangle the straight line from x to `end` is at the start of the step, or
+  /// less: it is at least as far from it as from its plane, and as from the box around it along
+  /// each axis.
   double off_line(int triangle, const double *x, const double *end) const
   {
     const Plane &p = planes_[triangle];
@@ -83,8 +86,8 @@ class SurfaceImages {
       off = std::max({off, p.lo[k] - std::max(x[k], end[k]), std::min(x[k], end[k]) - p.hi[k]});
     return off;
   }
-  /// Whether a point that moves from x by `path` in this step, both known to within `extra`, can meet a
-  /// triangle.
+  /// Whether a point that moves from x by `path` in this step, both known to within `extra`, can
+  /// meet a triangle.
   bool can_meet(int triangle, const double *x, const double *path, double extra = 0.0) const
   {
     const Plane &p = planes_[triangle];
@@ -118,9 +121,9 @@ class SurfaceImages {
 
   // === Planes
 
-  /// Of a triangle at the start of the step: its plane and the box around it. All of it is between two
-  /// planes, at the start the slack to either side of that plane, at the end at heights of up and down over
-  /// it.
+  /// Of a triangle at the start of the step: its plane and the box around it. All of it is between
+  /// two planes, at the start the slack to either side of that plane, at the end at heights of up
+  /// and down over it.
   struct Plane {
     double normal[3], offset, lo[3], hi[3];
     double moves;    // how far its corners come
@@ -137,8 +140,8 @@ class SurfaceImages {
     int vertex;
     std::array<int, 3> lattice;
   };
-  std::vector<Corner> corners_;                   // each once
-  std::vector<std::array<int, 3>> corners_of_;    // of a triangle
+  std::vector<Corner> corners_;                                 // each once
+  std::vector<std::array<int, 3>> corners_of_;                  // of a triangle
   std::vector<Eigen::Vector3d> corner_at_, corner_velocity_;    // in this step
   std::vector<double> corner_speed_;
   std::vector<SurfaceTriangle> triangles_;

@@ -74,8 +74,8 @@ void SurfaceLayers::measure(const SurfaceImages &surface)
 }
 
 /* ----------------------------------------------------------------------
-   By one look at a layer, in vectors. Who may come to triangles that the cube does not know stays, and so
-   does what is not a number
+   By one look at a layer, in vectors. Who may come to triangles that the cube does not know stays,
+   and so does what is not a number
 ------------------------------------------------------------------------- */
 
 int SurfaceLayers::keep_passing(const double *x, const double *velocity, const int *cubes,
@@ -91,7 +91,8 @@ int SurfaceLayers::keep_passing(const double *x, const double *velocity, const i
     const double *at = x + 3 * i, *v = velocity + 3 * i;
     const Layer &layer = layers[cube < 0 ? OPEN : EMPTY + 1 + lead[cube < 0 ? 0 : cube]];
     const double a = layer.normal[0] * at[0] + layer.normal[1] * at[1] + layer.normal[2] * at[2];
-    const double b = a + time * (layer.normal[0] * v[0] + layer.normal[1] * v[1] + layer.normal[2] * v[2]);
+    const double b =
+        a + time * (layer.normal[0] * v[0] + layer.normal[1] * v[1] + layer.normal[2] * v[2]);
     const double low = a < b ? a : b, high = a < b ? b : a;
     const bool passes_by = (low > layer.hi + margin) | (high < layer.lo - margin);
     const bool knows_all = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most;

@@ -18,25 +18,25 @@
 
 namespace Membrane_NS {
 
-/** What the triangles that a cube of a SurfaceGrid knows have in common, so that one look tells of most
-    points that they pass by all of them.
+/** What the triangles that a cube of a SurfaceGrid knows have in common, so that one look tells of
+    most points that they pass by all of them.
 
-    Of the triangles that a cube knows, the nearest to its centre leads it. All corners known to the cubes
-    that a triangle leads lie between two planes with its normal: the layer. */
+    Of the triangles that a cube knows, the nearest to its centre leads it. All corners known to the
+    cubes that a triangle leads lie between two planes with its normal: the layer. */
 class SurfaceLayers {
  public:
-  /// Cube c knows the triangles list[start[c]] to list[start[c + 1] - 1]; lead: of each cube its leading
-  /// triangle, or -1.
+  /// Cube c knows the triangles list[start[c]] to list[start[c + 1] - 1]; lead: of each cube its
+  /// leading triangle, or -1.
   void build(const class SurfaceImages &surface, const std::vector<int> &start,
              const std::vector<int> &list, std::vector<int> lead);
   /// The layers where the triangles are now.
   void measure(const SurfaceImages &surface);
 
   static constexpr int BLOCK = 512;
-  /// Of the points numbered which[0] to which[n - 1], n <= BLOCK, leaves in front those that may come
-  /// within `margin` of a triangle in that time, on straight lines, and returns how many they are. Three
-  /// numbers a point; cubes: of each point, -1 beyond the grid; these know all triangles nearer than
-  /// `listed`.
+  /// Of the points numbered which[0] to which[n - 1], n <= BLOCK, leaves in front those that may
+  /// come within `margin` of a triangle in that time, on straight lines, and returns how many they
+  /// are. Three numbers a point; cubes: of each point, -1 beyond the grid; these know all triangles
+  /// nearer than `listed`.
   int keep_passing(const double *x, const double *velocity, const int *cubes, double time,
                    double margin, double listed, int *which, int n) const;
 

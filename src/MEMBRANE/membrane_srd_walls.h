@@ -25,7 +25,7 @@ class BoxWalls {
   double position[FACES] = {};
   double velocity[FACES][3] = {};    ///< within the plane of the wall
   bool noslip = true;
-  double impulse[3] = {};            ///< momentum that the walls of this rank have taken so far
+  double impulse[3] = {};    ///< momentum that the walls of this rank have taken so far
 
   bool any() const
   {
@@ -34,8 +34,9 @@ class BoxWalls {
     return false;
   }
 
-  /** How long until a particle that keeps its velocity meets a wall: at most `time`. face: the wall,
-      or -1 if it meets none by then. One that is beyond a wall and moves away meets it at once. */
+  /** How long until a particle that keeps its velocity meets a wall: at most `time`. face: the
+      wall, or -1 if it meets none by then. One that is beyond a wall and moves away meets it at
+      once. */
   double first_hit(const double *x, const double *v, double time, int &face) const
   {
     face = -1;

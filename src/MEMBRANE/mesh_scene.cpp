@@ -85,13 +85,12 @@ void MeshScene::deal_faces(int groupbit)
   }
   MPI_Allreduce(mine.data(), types.data(), mine.size(), MPI_INT, MPI_MAX, world);
 
-  // every rank has the whole mesh: they take turns
+  // every rank has all of the mesh: they take turns
 
   int next = 0;
   for (int f = 0; f < topology.num_faces(); ++f) {
     const Face &face = topology.face(f);
-    if (types[face[0]] && types[face[1]] && types[face[2]] &&
-        next++ % comm->nprocs == comm->me)
+    if (types[face[0]] && types[face[1]] && types[face[2]] && next++ % comm->nprocs == comm->me)
       my_faces.push_back(f);
   }
 }

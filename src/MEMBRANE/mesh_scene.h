@@ -27,9 +27,9 @@ namespace LAMMPS_NS {
 /// The membranes as they are drawn: where in the box, which faces, and by which rank.
 class MeshScene : protected Pointers {
  public:
-  /// Collective. Of the faces whose corners are all in the group. Closed membranes are in one piece, beyond
-  /// the box if need be, or else cut at the box, as what continues through it always is. The mesh must be up
-  /// to date and outlive this.
+  /// Collective. Of the faces whose corners are all in the group. Closed membranes are in one
+  /// piece, beyond the box if need be, or else cut at the box, as what continues through it always
+  /// is. The mesh must be up to date and outlive this.
   MeshScene(class LAMMPS *, const class DistributedMesh &mesh, int groupbit, bool in_one_piece);
 
   /// For this rank to draw; all ranks have about equally many.
@@ -41,8 +41,8 @@ class MeshScene : protected Pointers {
   /// The points of a face where it is drawn.
   void evaluate(int face, Membrane_NS::FaceTessellation &, std::vector<Membrane_NS::LimitPoint> &);
 
-  /// Collective: mean and standard deviation over the area of all faces of a finite number, as far as it is
-  /// finite; false if there is no area.
+  /// Collective: mean and standard deviation over the area of all faces of a finite number, as far
+  /// as it is finite; false if there is no area.
   bool statistics(const std::function<double(const Membrane_NS::LimitPoint &)> &value, double &mean,
                   double &deviation);
 

@@ -109,8 +109,8 @@ void SRDCells::collide(const SRDSolvent &solvent, bigint step, BoxWalls &walls, 
 }
 
 /* ----------------------------------------------------------------------
-   periodic images of a box that deforms move at different velocities, if fix deform remaps them: in a
-   cell that reaches over the boundary, as in Domain::pbc()
+   periodic images of a box that deforms move at different velocities, if fix deform remaps them: in
+   a cell that reaches over the boundary, as in Domain::pbc()
 ------------------------------------------------------------------------- */
 
 void SRDCells::change_frame(const SRDSolvent &solvent, double sign)
@@ -126,8 +126,7 @@ void SRDCells::change_frame(const SRDSolvent &solvent, double sign)
   };
   for (int i = solvent.first(); i < solvent.last(); ++i)
     if (solvent.has(i) && atom->mask[i] & domain->deform_groupbit) change(atom->x[i], atom->v[i]);
-  for (int i = 0; i < others.count(); ++i)
-    change(&others.position[3 * i], &others.velocity[3 * i]);
+  for (int i = 0; i < others.count(); ++i) change(&others.position[3 * i], &others.velocity[3 * i]);
 }
 
 /* ----------------------------------------------------------------------
@@ -242,14 +241,14 @@ SRDParticles SRDCells::particles_of(Participants &members, Binned &bins)
    cells, the particles outside. Without it the fluid would slip [A. Lamura, G. Gompper, T. Ihle and
    D. M. Kroll, Europhys. Lett. 56, 319 (2001)].
 
-   With a gas at rest it still slips a little. In a flow u = g z along a wall at z = 0, the part of a
-   cell inside, a fraction s, has the mean velocity g s/2 and so exchanges momentum, as s (1 - s) times
-   the difference between the parts, with one at rest; within a fluid that goes on beyond the wall
-   the difference is g/2 whatever s. Averaged over s the wall takes half of what it should, so the
-   gas has to move against the flow. It gets the mean velocity -B sqrt(s/(1 - s)) times that of the
-   solvent in the cell, with B such that the average is right: B times the integral of
-   s^(5/2) (1 - s)^(1/2) over s is 1/12. Since B < 1, noise that is weaker by sqrt(1 - B^2) leaves
-   the mean velocity of the gas the variance of equilibrium.
+   With a gas at rest it still slips a little. In a flow u = g z along a wall at z = 0, the part of
+   a cell inside, a fraction s, has the mean velocity g s/2 and so exchanges momentum, as s (1 - s)
+   times the difference between the parts, with one at rest; within a fluid that goes on beyond the
+   wall the difference is g/2 whatever s. Averaged over s the wall takes half of what it should, so
+   the gas has to move against the flow. It gets the mean velocity -B sqrt(s/(1 - s)) times that of
+   the solvent in the cell, with B such that the average is right: B times the integral of s^(5/2)
+   (1 - s)^(1/2) over s is 1/12. Since B < 1, noise that is weaker by sqrt(1 - B^2) leaves the mean
+   velocity of the gas the variance of equilibrium.
 ------------------------------------------------------------------------- */
 
 static constexpr double OPPOSE = 0.6790610905254202;    // B = 32/(15 pi)

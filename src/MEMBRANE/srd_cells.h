@@ -14,8 +14,8 @@
 #ifndef LMP_SRD_CELLS_H
 #define LMP_SRD_CELLS_H
 
-#include "membrane_srd_walls.h"
 #include "membrane_srd.h"
+#include "membrane_srd_walls.h"
 #include "srd_grid.h"
 #include "srd_solvent.h"
 
@@ -50,8 +50,8 @@ class SRDCells : protected Pointers {
     /// Returns its place in the arrays.
     int add(const double *x, const double *v, double m, uint64_t name, int which_side = 0);
   };
-  /** Fill before collide(), which changes their velocities: on one rank each, within the reach of its
-      sub-domain, positions in any periodic image. They stay until cleared. */
+  /** Fill before collide(), which changes their velocities: on one rank each, within the reach of
+      its sub-domain, positions in any periodic image. They stay until cleared. */
   Participants others;
   /// Solvent that passes through the periodic boundary in this direction changes its side.
   std::array<bool, 3> flips = {false, false, false};
@@ -59,9 +59,9 @@ class SRDCells : protected Pointers {
   // === Collision
 
   /** Collective. Within walls that do not slip, the parts of cells beyond them hold particles at
-      rest with the wall, of the mean number `filling` a cell and the mass of solvent; the walls take
-      the momentum. side: if given, by owned atom, solvent with 0 and solvent with another number do
-      not collide with each other. */
+      rest with the wall, of the mean number `filling` a cell and the mass of solvent; the walls
+      take the momentum. side: if given, by owned atom, solvent with 0 and solvent with another
+      number do not collide with each other. */
   void collide(const SRDSolvent &, bigint step, Membrane_NS::BoxWalls &walls, double filling,
                double solvent_mass, const int *side = nullptr);
 

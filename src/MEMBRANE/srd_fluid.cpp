@@ -72,8 +72,8 @@ SRDCells::Settings SRDFluid::cell_settings() const
   SRDCells::Settings settings = given.cells;
   settings.rule.kT = kT();
   const double in_cells = path / settings.size;
-  settings.shift =
-      given.shift == Shift::YES || (given.shift == Shift::POSSIBLE && in_cells < SHIFT_PATH);
+  settings.shift = given.shift == Shift::YES ||
+      (given.shift == Shift::POSSIBLE && in_cells < SHIFT_PATH);
   if (!settings.shift && in_cells < SHORT_PATH)
     error->all(FLERR,
                "Fix srd/mesh: a mean free path of {:.4g} cells is too short for a grid that stays: "

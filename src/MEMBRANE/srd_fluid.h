@@ -19,18 +19,20 @@
 
 namespace LAMMPS_NS {
 
-/// What kind of fluid the solvent of a fix srd/mesh is: its temperature, free path and viscosity follow from
-/// the words of the command, its masses, its density and the box.
+/// What kind of fluid the solvent of a fix srd/mesh is: its temperature, free path and viscosity
+/// follow from the words of the command, its masses, its density and the box.
 class SRDFluid : protected Pointers {
  public:
   /// The arguments must outlive this.
   SRDFluid(class LAMMPS *, const struct SRDMeshArguments &);
 
-  /// Collective: temperature, mean mass and mean free path of solvent that collides every so many steps.
+  /// Collective: temperature, mean mass and mean free path of solvent that collides every so many
+  /// steps.
   void measure(const class SRDSolvent &);
   /// After that: what rules of collision there are; stops if the free path is too short for them.
   SRDCells::Settings cell_settings() const;
-  /// And of cells that fit the box; stops if they are far from cubes of the wanted size, or warns if asked to.
+  /// And of cells that fit the box; stops if they are far from cubes of the wanted size, or warns
+  /// if asked to.
   void fit(const SRDGrid &, bool warn);
   void report(const SRDGrid &) const;
 

@@ -274,7 +274,8 @@ void SRDGrid::find_cells(const double *x, int count, int *cells) const
     c0 += (c0 < 0 ? turn0 : 0) - (c0 >= n0 ? turn0 : 0);
     c1 += (c1 < 0 ? turn1 : 0) - (c1 >= n1 ? turn1 : 0);
     c2 += (c2 < 0 ? turn2 : 0) - (c2 >= n2 ? turn2 : 0);
-    const bool here = (c0 >= 0) & (c0 < length0) & (c1 >= 0) & (c1 < length1) & (c2 >= 0) & (c2 < length2);
+    const bool here =
+        (c0 >= 0) & (c0 < length0) & (c1 >= 0) & (c1 < length1) & (c2 >= 0) & (c2 < length2);
     cells[i] = here ? (c2 * length1 + c1) * length0 + c0 : ELSEWHERE;
   }
   for (int i = 0; i < count; ++i)
@@ -312,8 +313,9 @@ int SRDGrid::find_outside(const double *x, int count, int *which) const
   int outside[BLOCK], n = 0;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i)
-    outside[i] = tilted | !((x[3 * i] >= lo0) & (x[3 * i] < hi0) & (x[3 * i + 1] >= lo1) &
-                            (x[3 * i + 1] < hi1) & (x[3 * i + 2] >= lo2) & (x[3 * i + 2] < hi2));
+    outside[i] = tilted |
+        !((x[3 * i] >= lo0) & (x[3 * i] < hi0) & (x[3 * i + 1] >= lo1) & (x[3 * i + 1] < hi1) &
+          (x[3 * i + 2] >= lo2) & (x[3 * i + 2] < hi2));
   for (int i = 0; i < count; ++i) {
     which[n] = i;
     n += outside[i];

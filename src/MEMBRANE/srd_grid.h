@@ -57,8 +57,8 @@ class SRDGrid : protected Pointers {
   int64_t num_numbers() const { return (int64_t) all[0] * all[1] * all[2]; }
   /// Each cell is owned by one of the ranks that hold it.
   bool owned(int cell) const { return owner[cell]; }
-  /// Collective: sum width numbers a cell over the ranks that hold it, in the order of ranks, so that
-  /// all have the same sums to the last bit.
+  /// Collective: sum width numbers a cell over the ranks that hold it, in the order of ranks, so
+  /// that all have the same sums to the last bit.
   void sum(double *values, int width);
 
   // === Where the grid is
@@ -87,8 +87,8 @@ class SRDGrid : protected Pointers {
   /// Whether a position is further from the sub-domain than the reach (or half the box).
   bool strayed(const double *x) const;
   static constexpr int BLOCK = 512;
-  /// Which of up to BLOCK positions are beyond the faces of the box, or may be if that is tilted; returns
-  /// how many.
+  /// Which of up to BLOCK positions are beyond the faces of the box, or may be if that is tilted;
+  /// returns how many.
   int find_outside(const double *x, int count, int *which) const;
   /// Back into the box in periodic directions in which this rank has all of it.
   void wrap(double *x, imageint &image) const;
@@ -101,24 +101,24 @@ class SRDGrid : protected Pointers {
 
  private:
   double wanted;
-  int n[3], all[3];             // divisions of the box; cells
+  int n[3], all[3];                  // divisions of the box; cells
   bool periodic[3], spans_box[3];    // the latter: this rank's sub-domain does
   double edges[3];
-  int start[3], length[3];      // of this rank's cells
+  int start[3], length[3];    // of this rank's cells
   double corner[3], inverse[6], cell_vectors[6], shift[3];
   double stray_lo[3], stray_hi[3];
 
-  std::vector<double> seen;     // box and sub-domain of the last setup()
+  std::vector<double> seen;    // box and sub-domain of the last setup()
   std::vector<int64_t> number;
   std::vector<char> owner;
 
   struct Partner {
     int rank;
-    std::vector<int> cells;     // in common, by increasing number
+    std::vector<int> cells;    // in common, by increasing number
     std::vector<double> send, receive;
   };
   std::vector<Partner> partners;
-  std::vector<int> shared;      // cells held by several ranks
+  std::vector<int> shared;    // cells held by several ranks
   std::vector<double> own;
   std::vector<MPI_Request> requests;
   std::vector<MPI_Status> statuses;

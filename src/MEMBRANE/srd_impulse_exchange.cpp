@@ -35,7 +35,8 @@ static constexpr int MOST_EXCHANGES = 1000;
 
 ImpulseExchange::ImpulseExchange(LAMMPS *lmp, const SurfaceMotion &motion, bool everywhere,
                                  std::string user) :
-    Pointers(lmp), motion(motion), everywhere(everywhere), user(std::move(user)), exchanges(0)
+    Pointers(lmp),
+    motion(motion), everywhere(everywhere), user(std::move(user)), exchanges(0)
 {
 }
 
@@ -67,8 +68,9 @@ ImpulseExchange::that_concern_others(const std::vector<SurfaceImpulse> &impulses
   if (everywhere) return impulses;
   std::vector<SurfaceImpulse> some;
   for (const SurfaceImpulse &impulse : impulses)
-    if (std::any_of(impulse.vertex.begin(), impulse.vertex.end(),
-                    [this](int v) { return shared[v] && motion.is_free(v); }))
+    if (std::any_of(impulse.vertex.begin(), impulse.vertex.end(), [this](int v) {
+          return shared[v] && motion.is_free(v);
+        }))
       some.push_back(impulse);
   return some;
 }
@@ -77,10 +79,11 @@ bool ImpulseExchange::exchange(const std::vector<SurfaceImpulse> &impulses)
 {
   if (comm->nprocs == 1) return false;
   if (++exchanges > MOST_EXCHANGES)
-    error->all(FLERR,
-               "{}: after {} exchanges the ranks do not agree on the collisions with the surface in step "
-               "{}: are velocities numbers? Or use a shorter timestep",
-               user, MOST_EXCHANGES, update->ntimestep);
+    error->all(
+        FLERR,
+        "{}: after {} exchanges the ranks do not agree on the collisions with the surface in step "
+        "{}: are velocities numbers? Or use a shorter timestep",
+        user, MOST_EXCHANGES, update->ntimestep);
 
   const std::vector<SurfaceImpulse> mine = that_concern_others(impulses);
   const int nprocs = comm->nprocs;

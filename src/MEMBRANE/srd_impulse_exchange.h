@@ -27,7 +27,8 @@ namespace LAMMPS_NS {
 
     Each rank works out its atoms' collisions for given impulses of others. Those that come first in
     time are right at once, and what they cause is right after one exchange more, so impulses are
-    exchanged until none changes: two or three times, since few cross from rank to rank in a step. */
+    exchanged until none changes: two or three times, since few cross from rank to rank in a step.
+    */
 class ImpulseExchange : protected Pointers {
  public:
   /// everywhere: impulses act far from where they are, too. `user` is named in errors.
@@ -41,8 +42,8 @@ class ImpulseExchange : protected Pointers {
   void begin();
   /// Impulses from other ranks as far as they are known.
   const std::vector<Membrane_NS::SurfaceImpulse> &from_others() const { return others; }
-  /// Collective: of this rank's solvent, for those from others. Returns whether any rank's have changed,
-  /// and so from_others() may have; stops if that has no end.
+  /// Collective: of this rank's solvent, for those from others. Returns whether any rank's have
+  /// changed, and so from_others() may have; stops if that has no end.
   bool exchange(const std::vector<Membrane_NS::SurfaceImpulse> &impulses);
 
  private:
@@ -51,7 +52,7 @@ class ImpulseExchange : protected Pointers {
   std::string user;
   std::vector<char> shared;    // if not everywhere: vertices that atoms of several ranks may touch
   std::vector<Membrane_NS::SurfaceImpulse> all, others;    // as of the last exchange
-  int exchanges;               // in this step
+  int exchanges;                                           // in this step
 
   std::vector<Membrane_NS::SurfaceImpulse>
   that_concern_others(const std::vector<Membrane_NS::SurfaceImpulse> &) const;

@@ -70,17 +70,18 @@ void SRDInfluences::check_box_movers(const SRDSolvent &solvent, int membranes)
         mine[(atom->mask[i] & fix->groupbit) != 0] = 1;
     MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
     if (any[0] && any[1])
-      error->all(FLERR,
-                 "Fix srd/mesh: fix {} (deform) with remap x needs all solvent and all membranes of group "
-                 "{} in its group {}",
-                 fix->id, group->names[membranes], group->names[fix->igroup]);
+      error->all(
+          FLERR,
+          "Fix srd/mesh: fix {} (deform) with remap x needs all solvent and all membranes of group "
+          "{} in its group {}",
+          fix->id, group->names[membranes], group->names[fix->igroup]);
   }
 }
 
 /* ----------------------------------------------------------------------
    Most solvent feels no force: then there is none to read, nor to clear. And where no fix that has
-   solvent in its group acts at other points of a step than forces do, only this fix changes its velocities
-   and places, so they are known in advance. Some fixes act on more than their group
+   solvent in its group acts at other points of a step than forces do, only this fix changes its
+   velocities and places, so they are known in advance. Some fixes act on more than their group
 ------------------------------------------------------------------------- */
 
 void SRDInfluences::find(const SRDSolvent &solvent)
@@ -106,7 +107,8 @@ void SRDInfluences::find(const SRDSolvent &solvent)
     if (is_one_of(fixes[f], UNKNOWN)) mine[1] = 1;
     for (int what = 0; what < 2; ++what)
       for (int i = 0; i < atom->nlocal && acts[what] && !mine[what]; ++i)
-        if (solvent.has(i) && (group->dynamic[fixes[f]->igroup] || atom->mask[i] & fixes[f]->groupbit))
+        if (solvent.has(i) &&
+            (group->dynamic[fixes[f]->igroup] || atom->mask[i] & fixes[f]->groupbit))
           mine[what] = 1;
   }
   if (force->pair && force->pair->cutsq)

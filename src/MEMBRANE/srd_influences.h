@@ -29,7 +29,8 @@ class SRDInfluences : protected Pointers {
 
   /// Collective; from init(): stops if other fixes move solvent, and finds the two above.
   void init(const class SRDSolvent &);
-  /// Collective: stops if what a fix deform takes along with the box would pass through what it does not.
+  /// Collective: stops if what a fix deform takes along with the box would pass through what it
+  /// does not.
   void check_box_movers(const SRDSolvent &, int membranes);
 
  private:

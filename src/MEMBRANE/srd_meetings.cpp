@@ -53,7 +53,8 @@ static constexpr double MORE_SLACK = 1.5, LESS_SLACK = 0.99;
 static constexpr double SPACING = 1.2;
 // of the list of solvent that comes near, to begin with
 static constexpr double MARGIN = 0.2;
-// and for it solvent moves so far, in root mean squares: further, and there would be many to look at
+// and for it solvent moves so far, in root mean squares: further, and there would be many to look
+// at
 static constexpr double LONGEST = 0.5;
 
 // solvent faster than this, in root mean squares, needs more than one look
@@ -63,8 +64,9 @@ static constexpr double FAST = 2.5;
 
 SurfaceMeetings::SurfaceMeetings(LAMMPS *lmp, const SurfaceMotion &motion,
                                  const SurfaceRegions &regions, const Settings &settings) :
-    Pointers(lmp), motion(motion), regions(regions), settings(settings), mesh(lmp, settings.user),
-    speed(0.0), vertex_slack(0.0), point_slack(0.0)
+    Pointers(lmp),
+    motion(motion), regions(regions), settings(settings), mesh(lmp, settings.user), speed(0.0),
+    vertex_slack(0.0), point_slack(0.0)
 {
 }
 
@@ -79,7 +81,8 @@ void SurfaceMeetings::setup()
 
 // === The grid
 
-bool SurfaceMeetings::update_grid(const SRDFlight &flight, const std::vector<SurfaceVertex> &vertices)
+bool SurfaceMeetings::update_grid(const SRDFlight &flight,
+                                  const std::vector<SurfaceVertex> &vertices)
 {
   const bool new_owners = mesh.follow() != MeshChange::NOTHING && comm->nprocs > 1;
   if (!new_owners && grid.is_valid_for(vertices, motion.lattice_now())) return false;
@@ -89,11 +92,13 @@ bool SurfaceMeetings::update_grid(const SRDFlight &flight, const std::vector<Sur
 
 // where this rank's solvent is, and may come to be before the grid is built anew
 
-void SurfaceMeetings::build_grid(const SRDFlight &flight, const std::vector<SurfaceVertex> &vertices)
+void SurfaceMeetings::build_grid(const SRDFlight &flight,
+                                 const std::vector<SurfaceVertex> &vertices)
 {
   const SRDSolvent &solvent = flight.solvent;
   Vector3d lo = Vector3d::Map(domain->sublo), hi = Vector3d::Map(domain->subhi);
-  if (domain->triclinic) domain->bbox(domain->sublo_lamda, domain->subhi_lamda, lo.data(), hi.data());
+  if (domain->triclinic)
+    domain->bbox(domain->sublo_lamda, domain->subhi_lamda, lo.data(), hi.data());
   double square = 0.0;
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!solvent.has(i)) continue;
@@ -120,7 +125,8 @@ void SurfaceMeetings::build_grid(const SRDFlight &flight, const std::vector<Surf
 }
 
 /* ----------------------------------------------------------------------
-   solvent that may meet triangles in this step is noted, with these; false if some is beyond the grid
+   solvent that may meet triangles in this step is noted, with these; false if some is beyond the
+   grid
 ------------------------------------------------------------------------- */
 
 bool SurfaceMeetings::gather(const SRDFlight &flight, const std::vector<SurfaceVertex> &vertices,
@@ -177,7 +183,10 @@ void SurfaceMeetings::list_approaching(const SRDFlight &flight,
                     std::max(flight.dt, std::min(flight.horizon, far)),
                     std::max(flight.dt, update->dt), 2.0 * point_slack);
   std::function<bool(int)> has;
-  if (!solvent.dense()) has = [&](int i) { return solvent.has(i); };
+  if (!solvent.dense())
+    has = [&](int i) {
+      return solvent.has(i);
+    };
   approaching.offer(grid, solvent.first(), solvent.last(), atom->x[0], atom->v[0], has);
   approaching.end(grid);
 }
@@ -201,8 +210,7 @@ void SurfaceMeetings::note(int i, const std::vector<int> &triangles, const SRDFl
   if (!apart.empty()) apart[i] = 1;
   const double mass = flight.solvent.mass()[i];
   events.add_point(path, 1.0 / mass, atom->tag[i], flight.dt * path.velocity.norm() + point_slack);
-  if (forces_on_solvent)
-    events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
+  if (forces_on_solvent) events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
   const Vector3d way = flight.dt * path.velocity;
   const SRDSurface &surface = motion.surface();
   for (int t : triangles) {
@@ -248,8 +256,7 @@ void SurfaceMeetings::move(const SRDFlight &flight, const CollisionEvents &event
   const bool have_walls = flight.streaming.walls.any();
   for (size_t n = 0; n < near.size(); ++n) {
     const MovingPoint &path = events.path(n);
-    near[n].turned =
-        path.velocity != near[n].path.velocity || path.origin != near[n].path.origin;
+    near[n].turned = path.velocity != near[n].path.velocity || path.origin != near[n].path.origin;
     if (have_walls) apart[near[n].atom] = near[n].turned;
   }
   turned_by_walls.clear();

@@ -25,16 +25,16 @@
 
 namespace LAMMPS_NS {
 
-/// Solvent that moves for the time dt, the step or a part of it. horizon: from now on its velocities last so
-/// long, but for what it meets and kicks.
+/// Solvent that moves for the time dt, the step or a part of it. horizon: from now on its
+/// velocities last so long, but for what it meets and kicks.
 struct SRDFlight {
   const class SRDSolvent &solvent;
   class SRDStreaming &streaming;
   double dt, horizon;
 };
 
-/** Finds the solvent that may meet the surface, with a grid of its triangles and a list of the solvent that
-    comes near, and takes it to where collisions leave it. */
+/** Finds the solvent that may meet the surface, with a grid of its triangles and a list of the
+    solvent that comes near, and takes it to where collisions leave it. */
 class SurfaceMeetings : protected Pointers {
  public:
   struct Settings {
@@ -59,11 +59,12 @@ class SurfaceMeetings : protected Pointers {
 
   // === A step, or a part of it
 
-  /// Collective. Whether the grid has been built anew for these vertices, as it must be when they have moved
-  /// far or have new owners.
+  /// Collective. Whether the grid has been built anew for these vertices, as it must be when they
+  /// have moved far or have new owners.
   bool update_grid(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &);
   void build_grid(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &);
-  /// Begins the events and gives them all that may happen; false if solvent may come beyond the grid.
+  /// Begins the events and gives them all that may happen; false if solvent may come beyond the
+  /// grid.
   bool gather(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &,
               Membrane_NS::CollisionEvents &);
   /// All solvent to the end of its way, of which the events know those that meet the surface.
@@ -84,18 +85,18 @@ class SurfaceMeetings : protected Pointers {
   const SurfaceMotion &motion;
   const SurfaceRegions &regions;
   Settings settings;
-  LocalMesh mesh;              // its owners are those for which the grid was built
+  LocalMesh mesh;    // its owners are those for which the grid was built
   Membrane_NS::SurfaceGrid grid;
   Membrane_NS::ApproachList approaching;    // of local atoms
-  struct Near {                // an atom that may meet triangles in this step, and does if turned
+  struct Near {    // an atom that may meet triangles in this step, and does if turned
     int atom;
     Membrane_NS::MovingPoint path;
     bool turned;
   };
   std::vector<Near> near;
-  std::vector<char> apart;     // with walls, by local atom: it is near; then: it turned there
+  std::vector<char> apart;    // with walls, by local atom: it is near; then: it turned there
   std::vector<int> found, turned_by_walls;
-  double speed;                // of this rank's solvent, root mean square, when the grid was built
+  double speed;    // of this rank's solvent, root mean square, when the grid was built
   double vertex_slack, point_slack;
 
   void list_approaching(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &);

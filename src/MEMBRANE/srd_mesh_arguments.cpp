@@ -50,8 +50,7 @@ static void parse_wall_velocity(LAMMPS *lmp, char **arg, BoxWalls &walls)
   if (lmp->domain->periodicity[f / 2])
     error->all(FLERR, "Fix srd/mesh wall/velocity {}: the box is periodic there, without wall",
                arg[0]);
-  for (int k = 0; k < 3; ++k)
-    walls.velocity[f][k] = utils::numeric(FLERR, arg[1 + k], false, lmp);
+  for (int k = 0; k < 3; ++k) walls.velocity[f][k] = utils::numeric(FLERR, arg[1 + k], false, lmp);
   if (walls.velocity[f][f / 2] != 0.0)
     error->all(FLERR, "Fix srd/mesh wall/velocity {}: a wall can move along itself only", arg[0]);
 }
@@ -114,7 +113,7 @@ SRDMeshArguments SRDMeshArguments::parse(LAMMPS *lmp, int narg, char **arg)
       given.cells.rule.angle = DEGREE * degrees;
     } else if (key == "method") {
       given.cells.rule.method = choice({"srd", "at+a"}) ? CollisionRule::Method::AT_A
-                                                          : CollisionRule::Method::SRD;
+                                                        : CollisionRule::Method::SRD;
     } else if (key == "collision") {
       given.noslip = choice({"slip", "noslip"}) == 1;
     } else if (key == "impulse") {
@@ -167,7 +166,9 @@ SRDMeshArguments SRDMeshArguments::parse(LAMMPS *lmp, int narg, char **arg)
     iarg += used;
   }
   if (given.control && given.level > 0)
-    error->all(FLERR, "Fix srd/mesh impulse control acts on the triangles between vertices: leave out level");
+    error->all(
+        FLERR,
+        "Fix srd/mesh impulse control acts on the triangles between vertices: leave out level");
   if (given.cells.rule.method == CollisionRule::Method::AT_A && given.cells.rule.thermostat)
     error->all(FLERR, "Fix srd/mesh method at+a is a thermostat: leave out tstat yes");
   return given;

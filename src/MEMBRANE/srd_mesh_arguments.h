@@ -23,10 +23,10 @@ namespace LAMMPS_NS {
 
 /// What a fix srd/mesh command says.
 struct SRDMeshArguments {
-  int every = 0;           ///< steps from collision to collision in cells
-  int membranes = -1;      ///< their group, or none
+  int every = 0;         ///< steps from collision to collision in cells
+  int membranes = -1;    ///< their group, or none
   double temperature = 0.0;
-  double lamda = 0.0;      ///< mean free path, instead of the temperature, if positive
+  double lamda = 0.0;    ///< mean free path, instead of the temperature, if positive
   uint64_t seed = 0;
   SRDCells::Settings cells;
   enum class Shift { NO, YES, POSSIBLE } shift = Shift::NO;

@@ -24,7 +24,8 @@ using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 using Membrane_NS::CollisionEvents;
 
-// in edges of the mesh; see TriangleCollision: far above rounding, also of coordinates in a large box
+// in edges of the mesh; see TriangleCollision: far above rounding, also of coordinates in a large
+// box
 static constexpr double CONTACT = 1.0e-10;
 
 /* ---------------------------------------------------------------------- */
@@ -36,8 +37,8 @@ static SurfaceMeetings::Settings meeting_settings(const SurfaceObstacle::Setting
 
 SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
     Pointers(lmp), motion(lmp, settings.membranes, settings.level, settings.user),
-    regions(lmp, motion, settings.user), meetings(lmp, motion, regions, meeting_settings(settings)),
-    tally{}, settings(settings),
+    regions(lmp, motion, settings.user),
+    meetings(lmp, motion, regions, meeting_settings(settings)), tally{}, settings(settings),
     impulses(lmp, motion, settings.control || settings.level > 0, settings.user),
     in_cells(lmp, motion, settings.seed), rescue(lmp, motion, regions)
 {
@@ -70,7 +71,7 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
 }
 
 /* ----------------------------------------------------------------------
-   the exact motion of solvent and point masses over dt, see CollisionEvents
+   solvent and point masses move exactly for dt, see CollisionEvents
 ------------------------------------------------------------------------- */
 
 void SurfaceObstacle::stream(const SRDFlight &flight)
@@ -95,10 +96,11 @@ void SurfaceObstacle::stream(const SRDFlight &flight)
 
 void SurfaceObstacle::report_escape()
 {
-  error->one(FLERR,
-             "{}: solvent moves further than {:.6g} in one step, or has left the box: use a shorter "
-             "timestep",
-             settings.user, settings.stray);
+  error->one(
+      FLERR,
+      "{}: solvent moves further than {:.6g} in one step, or has left the box: use a shorter "
+      "timestep",
+      settings.user, settings.stray);
 }
 
 /* ----------------------------------------------------------------------

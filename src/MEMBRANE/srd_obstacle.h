@@ -36,15 +36,15 @@ namespace LAMMPS_NS {
 class SurfaceObstacle : protected Pointers {
  public:
   struct Settings {
-    int membranes = 0;          ///< their group
-    int level = 0;              ///< of the surface, see SRDSurface
-    uint64_t seed = 0;          ///< of all random numbers
+    int membranes = 0;    ///< their group
+    int level = 0;        ///< of the surface, see SRDSurface
+    uint64_t seed = 0;    ///< of all random numbers
     bool no_slip = false;
-    bool control = false;       ///< impulses act on control points
-    int most_bounces = 0;       ///< of an atom in one step; 0 for very many
-    double spacing = 0.0;       ///< of the grid that finds triangles; 0 to choose it
-    double stray = 0.0;         ///< how far solvent may be from its owner's sub-domain
-    std::string user;           ///< named in errors
+    bool control = false;    ///< impulses act on control points
+    int most_bounces = 0;    ///< of an atom in one step; 0 for very many
+    double spacing = 0.0;    ///< of the grid that finds triangles; 0 to choose it
+    double stray = 0.0;      ///< how far solvent may be from its owner's sub-domain
+    std::string user;        ///< named in errors
   };
   SurfaceObstacle(class LAMMPS *, const Settings &);
 
@@ -61,8 +61,8 @@ class SurfaceObstacle : protected Pointers {
   void begin_step(double dt) { motion.begin_step(dt); }
   /// Solvent moves, for the step or the next part of it.
   void stream(const SRDFlight &);
-  /// Around a collision in cells between two parts of a step, if the surface does not slip: the point
-  /// masses take part in it; what is held, with thermal velocities of kT.
+  /// Around a collision in cells between two parts of a step, if the surface does not slip: the
+  /// point masses take part in it; what is held, with thermal velocities of kT.
   void join_cells(class SRDCells &cells, bigint step, double kT) { in_cells.join(cells, step, kT); }
   void leave_cells(SRDCells &cells) { in_cells.leave(cells, tally + HANDED); }
   /// From final_integrate().
@@ -77,7 +77,16 @@ class SurfaceObstacle : protected Pointers {
 
   // === What has happened so far
 
-  enum { COLLISIONS, CROSSINGS, RESCUES, ABANDONED, HANDED, OUTER = HANDED + 3, INNER, NUM_TALLIES };
+  enum {
+    COLLISIONS,
+    CROSSINGS,
+    RESCUES,
+    ABANDONED,
+    HANDED,
+    OUTER = HANDED + 3,
+    INNER,
+    NUM_TALLIES
+  };
   /** Of this rank; sum over ranks. HANDED: momentum given to membranes, 3 numbers; OUTER, INNER:
       impulse normal to the surface, of solvent in front of it and behind it. */
   double tally[NUM_TALLIES];

@@ -50,9 +50,9 @@ class SurfaceRegions : protected Pointers {
   }
   /// Whether atoms of a region are inside of a closed surface.
   bool is_inside(int region) const { return inside[region] != 0; }
-  /** Parities of the regions of all solvent, by local atom: even and odd tell the two sides of a surface
-      apart wherever the two are close. In the frame of the box: an atom that is wrapped changes its
-      parity if flips() says so. */
+  /** Parities of the regions of all solvent, by local atom: even and odd tell the two sides of a
+      surface apart wherever the two are close. In the frame of the box: an atom that is wrapped
+      changes its parity if flips() says so. */
   void find_parities(const class SRDSolvent &, int *parity) const;
   bool flips(int direction) const { return flip[direction] != 0; }
 
@@ -77,12 +77,12 @@ class SurfaceRegions : protected Pointers {
   SurfaceMotion &motion;
   std::string user;
   int num_surfaces;
-  std::vector<int> surface_of;                    // of a component: its place among those of the group
+  std::vector<int> surface_of;    // of a component: its place among those of the group
   std::vector<Membrane_NS::SurfaceSide> sides;    // by component
   std::vector<int> levels;                        // [region][surface]
   std::vector<char> inside;                       // by region
   std::vector<int> odd;                           // by region: whether the sum of its levels is
-  int flip[3];                                    // by direction: the sum of the surfaces' degrees is odd
+  int flip[3];    // by direction: the sum of the surfaces' degrees is odd
 
   static int flag(imageint image, int k)
   {

@@ -54,7 +54,8 @@ SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double 
 
 // the point of a surface nearest to an atom, in the image nearest to it, and the normal there
 
-Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing, Vector3d &normal) const
+Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing,
+                                      Vector3d &normal) const
 {
   const auto &surface = motion.surface().faces();
   const auto &places = motion.current();
@@ -67,7 +68,8 @@ Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing, 
     std::array<Vector3d, 3> corner;
     for (int k = 0; k < 3; ++k) {
       const auto &seam = surface.seams[f][k];
-      corner[k] = places[surface.faces[f][k]].path.origin + box * Vector3d(seam[0], seam[1], seam[2]);
+      corner[k] =
+          places[surface.faces[f][k]].path.origin + box * Vector3d(seam[0], seam[1], seam[2]);
     }
     Vector3d images = to_fraction * (x - corner[0]);
     for (int k = 0; k < 3; ++k) images[k] = domain->periodicity[k] ? std::round(images[k]) : 0.0;
@@ -115,7 +117,8 @@ bool SurfaceRescue::put_anywhere(const SurfaceRegions::Crossing &crossing)
     if (domain->triclinic) {
       double lamda[3];
       for (int k = 0; k < 3; ++k)
-        lamda[k] = domain->sublo_lamda[k] + s[k] * (domain->subhi_lamda[k] - domain->sublo_lamda[k]);
+        lamda[k] =
+            domain->sublo_lamda[k] + s[k] * (domain->subhi_lamda[k] - domain->sublo_lamda[k]);
       domain->lamda2x(lamda, x.data());
     } else
       for (int k = 0; k < 3; ++k)

@@ -30,7 +30,8 @@ class SurfaceRescue : protected Pointers {
     bigint crossed = 0;    ///< were on the wrong side
     bigint rescued = 0;    ///< and are not any more
   };
-  /// Collective: of this rank's solvent. What is closer than `contact` to the surface is on it, by rounding.
+  /// Collective: of this rank's solvent. What is closer than `contact` to the surface is on it, by
+  /// rounding.
   Counts put_back(const class SRDSolvent &, double contact);
 
  private:

@@ -59,8 +59,7 @@ void SRDSolvent::draw_velocities(uint64_t seed, bigint step, double kT) const
 {
   double **v = atom->v;
   for (int i = begin; i < end; ++i)
-    if (has(i))
-      Membrane_NS::thermal_velocity(seed, step, atom->tag[i], kT, masses[i], v[i]);
+    if (has(i)) Membrane_NS::thermal_velocity(seed, step, atom->tag[i], kT, masses[i], v[i]);
   double p[4];
   momentum(p);
   double mine = 0.0, twice_energy;

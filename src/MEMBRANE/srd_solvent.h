@@ -41,8 +41,8 @@ class SRDSolvent : protected Pointers {
 
   // === Velocities and forces
 
-  /// Collective: velocities drawn from Maxwell's distribution of kT (mass times velocity squared), less their
-  /// momentum, then scaled to the temperature.
+  /// Collective: velocities drawn from Maxwell's distribution of kT (mass times velocity squared),
+  /// less their momentum, then scaled to the temperature.
   void draw_velocities(uint64_t seed, bigint step, double kT) const;
   /// Forces act for a time; returns by how much they have changed a velocity of this rank at most.
   double kick(double time) const;

@@ -33,8 +33,8 @@ class SRDStreaming : protected Pointers {
   void find_walls();
   /// Walls follow the box. Call before using them in a time step.
   void place_walls();
-  /// x and v of all solvent of this rank after dt. `turned` receives who has met a wall, and who is held
-  /// stays where it is; with walls only.
+  /// x and v of all solvent of this rank after dt. `turned` receives who has met a wall, and who is
+  /// held stays where it is; with walls only.
   void stream(const SRDSolvent &, double dt, const std::vector<char> *held = nullptr,
               std::vector<int> *turned = nullptr);
 };

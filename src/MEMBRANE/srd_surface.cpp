@@ -124,8 +124,8 @@ void SRDSurface::cut_faces(const Topology &topology, SurfaceCorners::Seams seams
   if (level == 0 || (finer && finer_faces == topology.faces() && finer_seams == seams)) return;
   finer.reset();
   if (comm->me == 0)
-    utils::logmesg(lmp, "{}: cutting {} faces into {} triangles each\n", user,
-                   topology.num_faces(), 1 << (2 * level));
+    utils::logmesg(lmp, "{}: cutting {} faces into {} triangles each\n", user, topology.num_faces(),
+                   1 << (2 * level));
   finer = std::make_unique<SurfaceCorners>(topology, 1 << level, seams);
   finer_faces = topology.faces();
   finer_seams = std::move(seams);
@@ -171,8 +171,8 @@ void SRDSurface::make_triangles(const Topology &topology, const TriangleMesh &co
     cut.evaluate(topology.valences(f), stencil, points);
     for (size_t t = 0; t < cut.triangles().size(); ++t) {
       const auto &corners = cut.triangles()[t];
-      const auto &triangle =
-          finer ? finer->triangles()[f * cut.triangles().size() + t] : topology.face(f);
+      const auto &triangle = finer ? finer->triangles()[f * cut.triangles().size() + t]
+                                   : topology.face(f);
       std::array<Vector3d, 3> images;
       for (int k = 0; k < 3; ++k) {
         const int corner = triangle[k];

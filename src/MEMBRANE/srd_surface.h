@@ -26,9 +26,10 @@
 
 namespace LAMMPS_NS {
 
-/** The surface that solvent meets, apart from where it is in a step: triangles between the limit positions of
-    the control points of a group of membranes, or finer ones, and in which periodic images their corners
-    belong together. Stays valid from a setup() to the next, as LAMMPS counts image flags. */
+/** The surface that solvent meets, apart from where it is in a step: triangles between the limit
+    positions of the control points of a group of membranes, or finer ones, and in which periodic
+    images their corners belong together. Stays valid from a setup() to the next, as LAMMPS counts
+    image flags. */
 class SRDSurface : protected Pointers {
  public:
   /// Faces are cut in 2^level x 2^level, see SurfaceCorners. `user` is named in messages.
@@ -47,8 +48,8 @@ class SRDSurface : protected Pointers {
   /// Vertices that are means of masses, from these.
   void place_corners(std::vector<Membrane_NS::SurfaceVertex> &) const;
 
-  /// The component of the mesh that a face is part of; components without faces here belong to other
-  /// groups.
+  /// The component of the mesh that a face is part of; components without faces here belong to
+  /// other groups.
   int component(int face) const { return face_component[face]; }
   /// Components of the group.
   const std::vector<int> &components() const { return group_components; }
@@ -60,7 +61,8 @@ class SRDSurface : protected Pointers {
 
   /// From where LAMMPS unwraps the atom of a vertex to its place with its component in one piece.
   const std::array<int, 3> &to_one_piece(int vertex) const { return offset[vertex]; }
-  /// Sum over the ring of a vertex, from the place of each neighbour to its image next to the vertex.
+  /// Sum over the ring of a vertex, from the place of each neighbour to its image next to the
+  /// vertex.
   const std::array<int, 3> &ring_images(int vertex) const { return ring_seam[vertex]; }
 
   double memory_usage() const;

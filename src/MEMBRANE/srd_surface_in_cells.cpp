@@ -25,8 +25,8 @@
 using namespace LAMMPS_NS;
 using Membrane_NS::VertexField;
 
-// of the random numbers that say with which side a point mass collides, and of thermal velocities of
-// those that are held
+// of the random numbers that say with which side a point mass collides, and of thermal velocities
+// of those that are held
 static constexpr uint64_t SIDE_SEED = 0x73696465, HELD_SEED = 0x68656c64;
 
 /* ---------------------------------------------------------------------- */

@@ -24,8 +24,8 @@ namespace LAMMPS_NS {
 /** The point masses of a surface as they take part in the collisions of cells.
 
     Solvent that bounces back at a surface still slips where cells are cut by it, unless the surface
-    itself has mass in these cells. Each mass collides with the solvent on one of its sides, drawn anew for
-    each step. What is held is a wall: it has thermal velocities. */
+    itself has mass in these cells. Each mass collides with the solvent on one of its sides, drawn
+    anew for each step. What is held is a wall: it has thermal velocities. */
 class SurfaceInCells : protected Pointers {
  public:
   /// seed: of sides and velocities.
@@ -33,7 +33,8 @@ class SurfaceInCells : protected Pointers {
 
   /// Collective; before a collision in cells between two parts of a step.
   void join(class SRDCells &, bigint step, double kT);
-  /// Collective; after it. Adds the momentum that this rank's masses were given to `momentum`, 3 numbers.
+  /// Collective; after it. Adds the momentum that this rank's masses were given to `momentum`, 3
+  /// numbers.
   void leave(SRDCells &, double *momentum);
 
  private:

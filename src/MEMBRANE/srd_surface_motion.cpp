@@ -35,23 +35,23 @@ using Membrane_NS::VertexField;
 
 // relative residual of L x = b: far below the errors that conservation is tested to
 static constexpr double TOLERANCE = 1.0e-14;
-// with that, on one rank and for so many control points, a factorization solves in a third to a half of the
-// time of the passes
+// with that, on one rank and for so many control points, a factorization solves in a third to a
+// half of the time of the passes
 static constexpr bigint MOST_DIRECT = 10000;
 
 /* ---------------------------------------------------------------------- */
 
 SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, std::string user) :
-    Pointers(lmp), user(std::move(user)), groupbit(group->bitmask[igroup]), held(lmp, this->user),
-    points(lmp, igroup, this->user), movers(lmp, igroup, this->user),
-    shape(lmp, groupbit, level, this->user), any_fixed(false), step(0.0), ahead(0.0)
+    Pointers(lmp), user(std::move(user)), groupbit(group->bitmask[igroup]),
+    local_mesh(lmp, this->user), points(lmp, igroup, this->user), movers(lmp, igroup, this->user),
+    shape(lmp, groupbit, level, this->user), any_fixed(false), step(0.0), time_left(0.0)
 {
 }
 
 void SurfaceMotion::init()
 {
   points.init();
-  held.init();
+  local_mesh.init();
   movers.init();
   find_masses();
 }
@@ -77,7 +77,7 @@ void SurfaceMotion::find_masses()
     const int v = mesh().vertex(atom->tag[i]);
     if (v < 0 || !(atom->mask[i] & groupbit)) continue;
     here[v] = atom->rmass[i];
-    if (movers.move(i)) here[n + v] = 1.0;
+    if (movers.moves(i)) here[n + v] = 1.0;
   }
   MPI_Allreduce(here.data(), sum.data(), 2 * n, MPI_DOUBLE, MPI_SUM, world);
   masses.assign(sum.begin(), sum.begin() + n);
@@ -91,9 +91,9 @@ void SurfaceMotion::find_masses()
 }
 
 /* ----------------------------------------------------------------------
-   With remap v LAMMPS changes velocities of atoms that pass through the boundary: those of one membrane
-   would be in two frames, and neither masses nor places of control points would fit together; with remap
-   none, places would not
+   With remap v LAMMPS changes velocities of atoms that pass through the boundary: those of one
+   membrane would be in two frames, and neither masses nor places of control points would fit
+   together; with remap none, places would not
 ------------------------------------------------------------------------- */
 
 void SurfaceMotion::check_frames()
@@ -108,10 +108,11 @@ void SurfaceMotion::check_frames()
                                   (int) (image >> IMG2BITS) - IMGMAX + offset[2]};
     for (int k = 0; k < 3; ++k)
       if (rate.col(k).squaredNorm() > 0.0 && (n[k] != 0 || seam[k] != 0))
-        error->one(FLERR,
-                   "{}: the membrane of atom {} passes through the boundary of the box in {}, which fix "
-                   "deform moves without the atoms: keep it inside, or use remap x",
-                   user, atom->tag[j], "xyz"[k]);
+        error->one(
+            FLERR,
+            "{}: the membrane of atom {} passes through the boundary of the box in {}, which fix "
+            "deform moves without the atoms: keep it inside, or use remap x",
+            user, atom->tag[j], "xyz"[k]);
   }
 }
 
@@ -124,14 +125,14 @@ void SurfaceMotion::follow_points()
   constexpr int RINGS = 1;
   if (!points.follow(RINGS)) return;
   const bool direct = comm->nprocs == 1 && points.count() <= MOST_DIRECT;
-  mask = std::make_unique<LimitMask>(mesh().topology(), part(),
-                                     LimitMask::Solver{direct, TOLERANCE});
+  mask =
+      std::make_unique<LimitMask>(mesh().topology(), part(), LimitMask::Solver{direct, TOLERANCE});
 }
 
 void SurfaceMotion::refresh()
 {
   follow_points();
-  if (held.follow() == MeshChange::NOTHING) return;
+  if (local_mesh.follow() == MeshChange::NOTHING) return;
 
   MeshPart &part = points.part();
   atom_vertex.assign(atom->nlocal, -1);
@@ -142,12 +143,12 @@ void SurfaceMotion::refresh()
   starts.assign(comm->nprocs + 1, 0);
   MPI_Allgather(&owned, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   for (int p = 0; p < comm->nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
-  listed.resize(starts.back());
+  owned_by_all.resize(starts.back());
   owner_of.assign(mesh().topology().num_vertices(), -1);
-  MPI_Allgatherv(part.vertices.data(), owned, MPI_INT, listed.data(), counts.data(), starts.data(),
-                 MPI_INT, world);
+  MPI_Allgatherv(part.vertices.data(), owned, MPI_INT, owned_by_all.data(), counts.data(),
+                 starts.data(), MPI_INT, world);
   for (int p = 0; p < comm->nprocs; ++p)
-    for (int i = starts[p]; i < starts[p + 1]; ++i) owner_of[listed[i]] = p;
+    for (int i = starts[p]; i < starts[p + 1]; ++i) owner_of[owned_by_all[i]] = p;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -198,7 +199,8 @@ void SurfaceMotion::load_displacements()
     for (int i = 0; i < part.owned; ++i) {
       if (is_free(part.vertices[i])) continue;
       Vector3d before = Vector3d::Map(remembered[i].c);
-      if (movers.remap() && box != remembered_box)    // fix deform has taken it along since
+      if (movers.box_takes_atoms() &&
+          box != remembered_box)    // fix deform has taken it along since
         before = corner + box * remembered_box.inverse() * (before - remembered_corner);
       const Vector3d d = Vector3d::Map(atom->x[part.atom_of(i)]) - before;
       Vector3d images = to_fraction * d;    // where another fix has wrapped it
@@ -214,11 +216,11 @@ void SurfaceMotion::load_accelerations()
   movers.load_accelerations(atom_vertex, moved);
 }
 
-// all = the ranks' mine, `width` numbers a vertex, in the order of `listed`
+// all = the ranks' mine, `width` numbers a vertex, in the order of owned_by_all
 
 void SurfaceMotion::share(int width)
 {
-  all.resize(width * listed.size());
+  all.resize(width * owned_by_all.size());
   if (comm->nprocs == 1) {
     all = mine;
     return;
@@ -247,7 +249,7 @@ void SurfaceMotion::begin_step(double dt)
   load_accelerations();
   acceleration.resize(part().size());
   mask->apply(moved, acceleration);
-  step = ahead = dt;
+  step = time_left = dt;
 }
 
 const std::vector<SurfaceVertex> &SurfaceMotion::paths()
@@ -257,13 +259,13 @@ const std::vector<SurfaceVertex> &SurfaceMotion::paths()
   mine.resize(9 * owned);
   for (int i = 0; i < owned; ++i)
     for (int k = 0; k < 3; ++k) {
-      mine[9 * i + k] = r[i].c[k] - ahead * velocity[i].c[k];
+      mine[9 * i + k] = r[i].c[k] - time_left * velocity[i].c[k];
       mine[9 * i + 3 + k] = velocity[i].c[k];
       mine[9 * i + 6 + k] = acceleration[i].c[k];
     }
   share(9);
-  for (size_t i = 0; i < listed.size(); ++i) {
-    SurfaceVertex &vertex = vertices[listed[i]];
+  for (size_t i = 0; i < owned_by_all.size(); ++i) {
+    SurfaceVertex &vertex = vertices[owned_by_all[i]];
     vertex.path = {Vector3d::Map(&all[9 * i]), Vector3d::Map(&all[9 * i + 3])};
     vertex.acceleration = Vector3d::Map(&all[9 * i + 6]);
   }
@@ -280,8 +282,8 @@ const std::vector<SurfaceVertex> &SurfaceMotion::places()
   for (int i = 0; i < part.owned; ++i)
     for (int k = 0; k < 3; ++k) mine[3 * i + k] = r[i].c[k];
   share(3);
-  for (size_t i = 0; i < listed.size(); ++i)
-    vertices[listed[i]].path = {Vector3d::Map(&all[3 * i]), Vector3d::Zero()};
+  for (size_t i = 0; i < owned_by_all.size(); ++i)
+    vertices[owned_by_all[i]].path = {Vector3d::Map(&all[3 * i]), Vector3d::Zero()};
   shape.place_corners(vertices);
   return vertices;
 }
@@ -291,9 +293,9 @@ void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
   refresh();
   load_positions();
   position.assign(r.begin(), r.begin() + part().owned);
-  if (ahead > 0.0)
+  if (time_left > 0.0)
     for (int i = 0; i < part().owned; ++i)
-      for (int k = 0; k < 3; ++k) position[i].c[k] -= ahead * velocity[i].c[k];
+      for (int k = 0; k < 3; ++k) position[i].c[k] -= time_left * velocity[i].c[k];
   part().load(atom->v, moved);
   velocity_now.resize(part().size());
   for (int i = 0; i < part().owned; ++i)    // whatever velocities the atoms have that nothing moves
@@ -341,17 +343,18 @@ void SurfaceMotion::change_velocities()
     const int j = part().atom_of(i);
     for (int k = 0; k < 3; ++k) {
       atom->v[j][k] += r[i].c[k];
-      atom->x[j][k] += ahead * r[i].c[k];
-      if (ahead > 0.0) velocity[i].c[k] += q[i].c[k];
+      atom->x[j][k] += time_left * r[i].c[k];
+      if (time_left > 0.0) velocity[i].c[k] += q[i].c[k];
     }
   }
 }
 
 double SurfaceMotion::memory_usage() const
 {
-  return (mask ? mask->memory_usage() : 0.0) + shape.memory_usage() + sizeof(SurfaceVertex) * vertices.capacity() +
+  return (mask ? mask->memory_usage() : 0.0) + shape.memory_usage() +
+      sizeof(SurfaceVertex) * vertices.capacity() +
       sizeof(double) * (mine.capacity() + all.capacity() + masses.capacity()) +
-      sizeof(int) * (listed.capacity() + owner_of.capacity() + atom_vertex.capacity()) +
+      sizeof(int) * (owned_by_all.capacity() + owner_of.capacity() + atom_vertex.capacity()) +
       sizeof(Vector4) *
       (q.capacity() + moved.capacity() + r.capacity() + detour.capacity() + velocity.capacity() +
        drift.capacity() + acceleration.capacity());

@@ -29,12 +29,12 @@
 
 namespace LAMMPS_NS {
 
-/** The limit positions of the control points of a group of membranes as moving point masses: where they, and
-    the surface that they span, are and go in a step, for all ranks, and what impulses on them do to the
-    control points.
+/** The limit positions of the control points of a group of membranes as moving point masses: where
+    they, and the surface that they span, are and go in a step, for all ranks, and what impulses on
+    them do to the control points.
 
-    Masses are those of the whole mesh; the vertices of the surface are these, and after them the corners of a
-    finer one. Positions are unwrapped and, component by component, in one piece, as
+    Masses are those of the whole mesh; the vertices of the surface are these, and after them the
+    corners of a finer one. Positions are unwrapped and, component by component, in one piece, as
     DistributedMesh::unwrapped() has them. Vertices of other groups stay unset. */
 class SurfaceMotion : protected Pointers {
  public:
@@ -53,7 +53,7 @@ class SurfaceMotion : protected Pointers {
 
   // === What moves
 
-  DistributedMesh &mesh() const { return *held; }
+  DistributedMesh &mesh() const { return *local_mesh; }
   const SRDSurface &surface() const { return shape; }
   /// The box vectors as columns, and the rate at which they change for images, which in a box whose
   /// deformation does not move atoms along have other velocities.
@@ -62,14 +62,14 @@ class SurfaceMotion : protected Pointers {
 
   // === A step
 
-  /** Collective; call when control points have moved for a time dt. They have so in straight lines, on
-      which this goes back to the start; pass() goes on from there. */
+  /** Collective; call when control points have moved for a time dt. They have so in straight lines,
+      on which this goes back to the start; pass() goes on from there. */
   void begin_step(double dt);
-  void pass(double duration) { ahead -= duration; }
+  void pass(double duration) { time_left -= duration; }
   /// The box vectors now, in the course of the step.
-  Eigen::Matrix3d lattice_now() const { return lattice() + (step - ahead) * lattice_rate(); }
+  Eigen::Matrix3d lattice_now() const { return lattice() + (step - time_left) * lattice_rate(); }
   /// When from now the middle of the step is.
-  double middle() const { return ahead - 0.5 * step; }
+  double middle() const { return time_left - 0.5 * step; }
   /// Collective: paths of all vertices from now on, and accelerations.
   const std::vector<Membrane_NS::SurfaceVertex> &paths();
   /// Collective: vertices at rest where they are at the end of the step.
@@ -96,7 +96,7 @@ class SurfaceMotion : protected Pointers {
  private:
   std::string user;
   int groupbit;
-  LocalMesh held;
+  LocalMesh local_mesh;
   MeshGroup points;
   std::unique_ptr<Membrane_NS::LimitMask> mask;
   SurfaceMovers movers;
@@ -105,16 +105,16 @@ class SurfaceMotion : protected Pointers {
   std::vector<double> masses, inverse_masses;
   std::vector<int> owner_of;
 
-  bool any_fixed;    // some vertices do not yield to impulses
+  bool any_fixed;                         // some vertices do not yield to impulses
   Membrane_NS::VertexField remembered;    // if so: x of the last step, and the box then
   Eigen::Matrix3d remembered_box;
   Eigen::Vector3d remembered_corner;
-  std::vector<int> atom_vertex;    // place in part() of local atoms, or -1
-  std::vector<int> counts, starts, listed;    // all ranks' owned vertices
+  std::vector<int> atom_vertex;                     // place in part() of local atoms, or -1
+  std::vector<int> counts, starts, owned_by_all;    // vertices, rank by rank
   std::vector<double> mine, all;
-  double step, ahead;                       // its duration, and time left of it
-  Membrane_NS::VertexField drift;           // velocities of owned control points in it
-  Membrane_NS::VertexField velocity;        // of owned masses for the rest of it
+  double step, time_left;               // its duration, and what is left of it
+  Membrane_NS::VertexField drift;       // velocities of owned control points in it
+  Membrane_NS::VertexField velocity;    // of owned masses for the rest of it
   Membrane_NS::VertexField acceleration;
   Membrane_NS::VertexField q, moved, r, detour;
 

@@ -38,7 +38,7 @@ using Membrane_NS::VertexField;
 
 SurfaceMovers::SurfaceMovers(LAMMPS *lmp, int igroup, std::string user) :
     Pointers(lmp), user(std::move(user)), igroup(igroup), groupbit(group->bitmask[igroup]),
-    remapped(false)
+    takes_atoms(false)
 {
 }
 
@@ -70,10 +70,11 @@ void SurfaceMovers::find_integrators()
     if (!have_in_common(fix)) continue;
     if (!integrator) {
       if (strcmp(fix->style, "move") == 0) continue;
-      error->all(FLERR,
-                 "{}: the membranes of group {} are moved by fix {} ({}), which impulses of solvent "
-                 "cannot act on: use fix hd/nve or hd/langevin",
-                 user, group->names[igroup], fix->id, fix->style);
+      error->all(
+          FLERR,
+          "{}: the membranes of group {} are moved by fix {} ({}), which impulses of solvent "
+          "cannot act on: use fix hd/nve or hd/langevin",
+          user, group->names[igroup], fix->id, fix->style);
     }
     if (integrator->drag_coefficient() > 0.0)
       error->all(FLERR,
@@ -90,7 +91,7 @@ void SurfaceMovers::find_integrators()
 
 // === Integrators
 
-bool SurfaceMovers::move(int i) const
+bool SurfaceMovers::moves(int i) const
 {
   for (const FixHDBase *integrator : integrators)
     if (atom->mask[i] & integrator->groupbit) return true;
@@ -127,18 +128,18 @@ void SurfaceMovers::load_accelerations(const std::vector<int> &place, VertexFiel
 
 void SurfaceMovers::find_box_movers()
 {
-  remapped = false;
+  takes_atoms = false;
   for (auto &fix : modify->get_fix_by_style("^deform")) {
     const auto *deform = dynamic_cast<FixDeform *>(fix);
     if (!deform || deform->remapflag != Domain::X_REMAP) continue;
     const bool takes_membranes = have_in_common(fix);
-    remapped = remapped || takes_membranes;
+    takes_atoms = takes_atoms || takes_membranes;
   }
 }
 
 bool SurfaceMovers::images_move() const
 {
-  return domain->deform_flag && !remapped;
+  return domain->deform_flag && !takes_atoms;
 }
 
 Matrix3d SurfaceMovers::lattice_rate() const

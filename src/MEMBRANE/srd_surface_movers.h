@@ -24,7 +24,8 @@
 
 namespace LAMMPS_NS {
 
-/// What moves the membranes that solvent meets: the integrators of their control points, and the box.
+/// What moves the membranes that solvent meets: the integrators of their control points, and the
+/// box.
 class SurfaceMovers : protected Pointers {
  public:
   /// `user` is named in errors.
@@ -37,16 +38,16 @@ class SurfaceMovers : protected Pointers {
   // === Integrators
 
   /// Whether one of them moves a local atom, which then yields to impulses.
-  bool move(int atom) const;
-  /** What they do in the present step to control points, for those alone: to[place[atom]] becomes the
-      displacement, or the acceleration at its start in units of velocity/time. */
+  bool moves(int atom) const;
+  /** What they do in the present step to control points, for those alone: to[place[atom]] becomes
+      the displacement, or the acceleration at its start in units of velocity/time. */
   void load_displacements(const std::vector<int> &place, Membrane_NS::VertexField &to) const;
   void load_accelerations(const std::vector<int> &place, Membrane_NS::VertexField &to) const;
 
   // === The box
 
   /// A fix deform moves the atoms along with it.
-  bool remap() const { return remapped; }
+  bool box_takes_atoms() const { return takes_atoms; }
   /// It deforms and does not: periodic images of atoms move relative to one another.
   bool images_move() const;
   /// The rate at which the box vectors, as columns, change for images.
@@ -56,7 +57,7 @@ class SurfaceMovers : protected Pointers {
   std::string user;
   int igroup, groupbit;
   std::vector<class FixHDBase *> integrators;
-  bool remapped;
+  bool takes_atoms;
 
   void find_integrators();
   void find_box_movers();

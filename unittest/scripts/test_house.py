@@ -10,6 +10,15 @@ TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 FOLDER = os.path.join(TOP, "src", "MEMBRANE")
 MOST_LINES = 500
 
+# CONTRIBUTING.md: beginnings of names by storey and family
+FAMILIES = (
+    "membrane_",                                                                     # ground floor
+    "atom_vec_membrane_cp", "mesh_", "create_membrane", "write_membrane",            # mesh
+    "compute_membrane_", "pair_helfrich", "helfrich_", "restart_archive",            # surface, energy
+    "hd_", "fix_hd_", "compute_hd_", "min_membrane",                                 # motion, minimization
+    "srd_", "fix_srd_mesh", "create_solvent",                                        # solvent
+    "dump_membrane_")                                                                # pictures
+
 
 def read(path):
     with open(path) as file:
@@ -70,6 +79,8 @@ graph = {room_of(name): set() for name in files}
 for name, headers in includes.items():
     graph[room_of(name)] |= {room_of(header) for header in headers if header in files} - {room_of(name)}
 claim("no rooms include one another in a circle", not circles(graph), circles(graph))
+homeless = [name for name in sorted(files) if not name.startswith(FAMILIES)]
+claim("every file belongs to a family", not homeless, homeless)
 long = {name: text.count("\n") for name, text in files.items() if text.count("\n") > MOST_LINES}
 claim(f"no file is longer than {MOST_LINES} lines", not long, long)
 
