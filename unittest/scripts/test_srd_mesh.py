@@ -1,4 +1,5 @@
 """fix srd/mesh with membranes: what a collision keeps, that nothing passes, ranks, restarts, scenes."""
+# cost: 60
 
 import math
 import os
