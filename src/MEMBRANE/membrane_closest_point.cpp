@@ -219,13 +219,14 @@ bool Descent::go(const Move &move)
 
 void Descent::run(double tolerance)
 {
+  int visits = 0;    // of an extraordinary vertex
   while (evaluations_ < MOST_EVALUATIONS) {
     converged_ = along_surface2() <= tolerance * tolerance;
     if (converged_) break;
     const Move move = this->move();
-    if (corner_ >= 0 && surface_.corner_at(move.to(1.0)) >= 0) {    // as close as can be told
-      converged_ = true;
-      break;
+    if (corner_ >= 0) {    // as close as can be told, if the next place is there too or was before
+      converged_ = ++visits > 2 || surface_.corner_at(move.to(1.0)) >= 0;
+      if (converged_) break;
     }
     if (!go(move)) break;
   }
