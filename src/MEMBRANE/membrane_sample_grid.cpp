@@ -112,10 +112,12 @@ void SampleGrid::take_samples(std::vector<Sample> &samples)
   const std::vector<Part> &parts = parts_of_face();
   radius_ = 0.0;
   SurfacePiece piece;
+  SurfaceJet jet;
   for (int f = 0; f < surface_.topology().num_faces(); ++f)
     for (size_t p = 0; p < parts.size(); ++p) {
       auto position = [&](const std::array<double, 2> &uv) {
-        return surface_.evaluate<0>({f, uv[0], uv[1]}, piece).position();
+        surface_.evaluate<0>({f, uv[0], uv[1]}, piece, jet);
+        return jet.position();
       };
       const Vector3d middle = position(parts[p].middle);
       samples.push_back({middle, f, static_cast<int>(p)});
