@@ -23,20 +23,22 @@
 #include <cmath>
 
 using namespace Membrane_NS;
-using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 static constexpr int MOST_EVALUATIONS = 100;
 static constexpr double LONGEST_STEP = 0.5;         // of a face
-static constexpr double LEAST_CONVEX = 1.0e-4;      // of the determinant of the metric
-static constexpr double ROUNDING = 1.0e-14;         // of squared distances
-static constexpr double PRECISE = 1.0e-10;          // of the mean edge
 static constexpr double LEAST_FRACTION = 1.0e-8;    // of a step
-static constexpr double NEAR_VERTEX =
-    0.25;                                    // shorter steps, to the distance, see a smooth surface
-static constexpr double FAN_RADIUS = 0.5;    // all within is on the faces around the vertex
+static constexpr double LEAST_CONVEX = 1.0e-4;      // of the determinant of the metric
+static constexpr double ROUNDING = 2.0e-15;         // of coordinates
+static constexpr double PRECISE = 1.0e-10;          // of the mean edge
+
+// steps in u and v that are short against the distance from a vertex do not see it; in the fan's plane
+// all within the radius is on the faces around the vertex
+
+static constexpr double NEAR_VERTEX = 0.25;
+static constexpr double FAN_RADIUS = 0.5;
 
 namespace {
 
