@@ -82,7 +82,7 @@ run             {BLOCKS * per}
     return result
 
 
-langevin = sphere(f"hd/langevin {KT} {KT} 0.1 4713 mass lumped", 0.008, 40000)
+langevin = sphere(f"hd/langevin {KT} {KT} 0.1 4718 mass lumped", 0.008, 40000)
 compare("sphere of 642 points, hd/langevin", langevin)
 small = dict(level=2, response="162 points")
 DRAG = 4 * math.pi / 162
