@@ -21,6 +21,7 @@
 #include "comm.h"
 #include "error.h"
 #include "group.h"
+#include "membrane_mass_kinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,7 @@ void HDMass::check_masses()
 
 void HDMass::refresh()
 {
-  if (!points.follow(MassOperator::halo_rings(settings.kind))) return;
+  if (!points.follow(Membrane_NS::mass_halo_rings(settings.kind))) return;
 
   const int n = mesh().topology().num_vertices();
   std::vector<double> masses(n, 0.0);
@@ -96,7 +97,7 @@ void HDMass::refresh()
   part().sum(masses.data(), n);
   for (int v = 0; v < n; ++v) labels[v] = mesh().tag(v);
   try {
-    mass = MassOperator::make({mesh().topology(), part(), masses, labels}, settings);
+    mass = Membrane_NS::make_mass({mesh().topology(), part(), masses, labels}, settings);
   } catch (const Membrane_NS::MeshError &err) {
     error->all(FLERR, "{}: {}", user, err.what());
   }

@@ -29,6 +29,7 @@
 #include "input.h"
 #include "kspace.h"
 #include "math_const.h"
+#include "membrane_mass_kinds.h"
 #include "membrane_tessellation.h"
 #include "neighbor.h"
 #include "update.h"

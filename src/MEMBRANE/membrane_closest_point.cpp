@@ -23,20 +23,22 @@
 #include <cmath>
 
 using namespace Membrane_NS;
-using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 static constexpr int MOST_EVALUATIONS = 100;
 static constexpr double LONGEST_STEP = 0.5;         // of a face
-static constexpr double LEAST_CONVEX = 1.0e-4;      // of the determinant of the metric
-static constexpr double ROUNDING = 1.0e-14;         // of squared distances
-static constexpr double PRECISE = 1.0e-10;          // of the mean edge
 static constexpr double LEAST_FRACTION = 1.0e-8;    // of a step
-static constexpr double NEAR_VERTEX =
-    0.25;                                    // shorter steps, to the distance, see a smooth surface
-static constexpr double FAN_RADIUS = 0.5;    // all within is on the faces around the vertex
+static constexpr double LEAST_CONVEX = 1.0e-4;      // of the determinant of the metric
+static constexpr double ROUNDING = 2.0e-15;         // of coordinates
+static constexpr double PRECISE = 1.0e-10;          // of the mean edge
+
+// steps in u and v that are short against the distance from a vertex do not see it; in the fan's plane
+// all within the radius is on the faces around the vertex
+
+static constexpr double NEAR_VERTEX = 0.25;
+static constexpr double FAN_RADIUS = 0.5;
 
 namespace {
 
@@ -100,125 +102,151 @@ void Move::try_fan(const FanPoint &fan, const Vector2d &step)
 }
 
 /* ----------------------------------------------------------------------
-   A point of the surface on its way to the foot of x.
+   A point of the surface on its way to the foot of x. With e = r - x, the gradient of e^2/2 is
+   g_a = e.r_a and its second derivatives are r_a.r_b + e.r_ab; the part of e along the surface has
+   the square g_a (G^-1)_ab g_b, G_ab = r_a.r_b.
 ------------------------------------------------------------------------- */
 
 class Descent {
  public:
   Descent(const LimitSurface &surface, const Vector3d &x, const SurfacePoint &start,
-          const Vector3d &near) :
+          const Vector3d &near, ClosestPoint &result) :
       surface_(surface),
-      x_(x), point_(start), to_surface_(near)
+      x_(x), result_(result), point_(result.point), jet_(result.jet), to_surface_(near)
   {
+    point_ = start;
     evaluate();
+    rounding_ = ROUNDING * (jet_.position().lpNorm<1>() + x.lpNorm<1>());
   }
-  ClosestPoint run(double tolerance);
+  /// On to the foot, or as far as it goes, and the result.
+  void run(double tolerance);
 
  private:
   const LimitSurface &surface_;
   const Vector3d x_;
-  SurfacePiece piece_;
-  SurfacePoint point_;
-  SurfaceJet jet_;
-  int corner_ = -1;    // the extraordinary one that the point is at
-  Vector3d normal_;
-  Vector3d to_surface_;    // from x; of periodic images that next to the last
+  double rounding_;
   int evaluations_ = 0;
+  bool converged_ = false;
+
+  ClosestPoint &result_;
+  SurfacePoint &point_;
+  SurfaceJet &jet_;
+  SurfacePiece piece_;
+  int corner_ = -1;                     // the extraordinary one that the point is at
+  Vector3d to_surface_;                 // from x; of periodic images that next to the last
+  double gu_, gv_, muu_, muv_, mvv_;    // gradient and metric
 
   void evaluate();
-  Vector3d along_surface() const { return to_surface_ - to_surface_.dot(normal_) * normal_; }
-  Move move() const;
+  double along_surface2() const
+  {
+    const double det = muu_ * mvv_ - muv_ * muv_;
+    return (mvv_ * gu_ * gu_ - 2.0 * muv_ * gu_ * gv_ + muu_ * gv_ * gv_) / det;
+  }
   Vector2d newton_step() const;
+  Move move() const;
+  bool go(const Move &move);
+  void finish();
 };
 
 void Descent::evaluate()
 {
-  jet_ = surface_.evaluate<2>(point_, piece_);
+  surface_.evaluate<2>(point_, piece_, jet_);
   ++evaluations_;
-  Vector3d offset = jet_.position() - x_;
-  if (surface_.is_periodic()) offset = to_surface_ + surface_.nearest_image(offset - to_surface_);
-  to_surface_ = offset;
+  const Vector3d offset = jet_.position() - x_;
+  to_surface_ = surface_.is_periodic()
+      ? Vector3d(to_surface_ + surface_.nearest_image(offset - to_surface_))
+      : offset;
+
+  // at an extraordinary vertex the jet is that of a point nearby: take tangents of its own
+
   corner_ = surface_.corner_at(point_);
-  if (corner_ < 0)
-    normal_ = jet_.normal();
-  else {    // where the jet is that of a point nearby
+  Vector3d du = jet_.du(), dv = jet_.dv();
+  if (corner_ >= 0) {
     const Matrix3d frame = surface_.vertex_frame(point_.face, corner_);
-    normal_ = frame.col(1).cross(frame.col(2)).normalized();
+    du = frame.col(1);
+    dv = frame.col(2);
   }
+  gu_ = to_surface_.dot(du);
+  gv_ = to_surface_.dot(dv);
+  muu_ = du.dot(du);
+  muv_ = du.dot(dv);
+  mvv_ = dv.dot(dv);
 }
 
-/* ----------------------------------------------------------------------
-   With e = r - x the gradient of e^2/2 is e.r_a and its second derivatives are r_a.r_b + e.r_ab.
-------------------------------------------------------------------------- */
+// by the second derivatives if they make a bowl, else without those of r
 
 Vector2d Descent::newton_step() const
 {
-  const Vector3d du = jet_.du(), dv = jet_.dv();
-  const double gu = to_surface_.dot(du), gv = to_surface_.dot(dv);
-  const double muu = du.dot(du), muv = du.dot(dv), mvv = dv.dot(dv);
-  double huu = muu + to_surface_.dot(jet_.row(Derivative::DUU));
-  double huv = muv + to_surface_.dot(jet_.row(Derivative::DUV));
-  double hvv = mvv + to_surface_.dot(jet_.row(Derivative::DVV));
-  double det = huu * hvv - huv * huv;
-  if (!(huu > 0.0 && det > LEAST_CONVEX * (muu * mvv - muv * muv))) {
-    huu = muu;
-    huv = muv;
-    hvv = mvv;
-    det = huu * hvv - huv * huv;
+  double huu = muu_, huv = muv_, hvv = mvv_;
+  if (corner_ < 0) {
+    huu += to_surface_.dot(jet_.row(Derivative::DUU));
+    huv += to_surface_.dot(jet_.row(Derivative::DUV));
+    hvv += to_surface_.dot(jet_.row(Derivative::DVV));
   }
-  return {(huv * gv - hvv * gu) / det, (huv * gu - huu * gv) / det};
+  const double metric = muu_ * mvv_ - muv_ * muv_;
+  double det = huu * hvv - huv * huv;
+  if (!(huu > 0.0 && det > LEAST_CONVEX * metric)) {
+    huu = muu_;
+    huv = muv_;
+    hvv = mvv_;
+    det = metric;
+  }
+  return Vector2d(huv * gv_ - hvv * gu_, huv * gu_ - huu * gv_) / det;
 }
 
 Move Descent::move() const
 {
-  if (corner_ < 0) return Move(surface_, point_, newton_step());
-  const Matrix3d frame = surface_.vertex_frame(point_.face, corner_);
-  const Eigen::Matrix<double, 3, 2> axes = frame.rightCols<2>();
-  const Vector2d place = (axes.transpose() * axes).inverse() * (axes.transpose() * -to_surface_);
-  return Move(surface_, point_, corner_, place);
+  const Vector2d step = newton_step();
+  return corner_ < 0 ? Move(surface_, point_, step) : Move(surface_, point_, corner_, step);
 }
 
-ClosestPoint Descent::run(double tolerance)
+// to where it is closer, or back
+
+bool Descent::go(const Move &move)
 {
-  bool converged = false;
-  while (evaluations_ < MOST_EVALUATIONS) {
-    const Vector3d along = along_surface();
-    converged = along.squaredNorm() <= tolerance * tolerance;
-    if (converged) break;
-
-    const Move move = this->move();
-    if (corner_ >= 0 && surface_.corner_at(move.to(1.0)) >= 0) {    // as close as it can be told
-      converged = true;
-      break;
-    }
-    const SurfacePoint from = point_;
-    const Vector3d from_offset = to_surface_;
-    const double distance2 = to_surface_.squaredNorm();
-    const double noise = ROUNDING * (jet_.position().norm() + x_.norm()) * to_surface_.norm();
-    bool closer = false;
-    for (double fraction = 1.0; fraction > LEAST_FRACTION && !closer; fraction *= 0.5) {
-      point_ = move.to(fraction);
-      to_surface_ = from_offset;
-      evaluate();
-      closer = to_surface_.squaredNorm() <= distance2 + noise;
-    }
-    if (closer) continue;
-    point_ = from;
-    to_surface_ = from_offset;
+  const SurfacePoint from = point_;
+  const Vector3d before = to_surface_;
+  const double enough = before.squaredNorm() + rounding_ * before.lpNorm<1>();
+  for (double fraction = 1.0; fraction > LEAST_FRACTION; fraction *= 0.5) {
+    point_ = move.to(fraction);
+    to_surface_ = before;
     evaluate();
-    break;
+    if (to_surface_.squaredNorm() <= enough) return true;
   }
+  point_ = from;
+  to_surface_ = before;
+  evaluate();
+  return false;
+}
 
-  ClosestPoint closest;
-  closest.point = point_;
-  closest.distance = -to_surface_.dot(normal_);
-  closest.normal = normal_;
-  closest.foot = x_ + to_surface_;
-  closest.jet = jet_;
-  closest.residual = along_surface().norm();
-  closest.evaluations = evaluations_;
-  closest.converged = converged;
-  return closest;
+void Descent::run(double tolerance)
+{
+  int visits = 0;    // of an extraordinary vertex
+  while (evaluations_ < MOST_EVALUATIONS) {
+    converged_ = along_surface2() <= tolerance * tolerance;
+    if (converged_) break;
+    const Move move = this->move();
+    if (corner_ >= 0) {    // as close as can be told, if the next place is there too or was before
+      converged_ = ++visits > 2 || surface_.corner_at(move.to(1.0)) >= 0;
+      if (converged_) break;
+    }
+    if (!go(move)) break;
+  }
+  finish();
+}
+
+void Descent::finish()
+{
+  result_.normal = jet_.normal();
+  if (corner_ >= 0) {
+    const Matrix3d frame = surface_.vertex_frame(point_.face, corner_);
+    result_.normal = frame.col(1).cross(frame.col(2)).normalized();
+  }
+  result_.distance = -to_surface_.dot(result_.normal);
+  result_.foot = x_ + to_surface_;
+  result_.residual = std::sqrt(std::max(along_surface2(), 0.0));
+  result_.evaluations = evaluations_;
+  result_.converged = converged_;
 }
 
 double tolerance_for(const LimitSurface &surface, const Vector3d &x, double wanted)
@@ -237,7 +265,9 @@ ClosestPoint Membrane_NS::closest_point(const LimitSurface &surface, const Vecto
   const Vector3d near = surface.is_periodic()
       ? surface.nearest_image(surface.evaluate<0>(start).position() - x)
       : Vector3d(Vector3d::Zero());
-  return Descent(surface, x, start, near).run(tolerance_for(surface, x, tolerance));
+  ClosestPoint closest;
+  Descent(surface, x, start, near, closest).run(tolerance_for(surface, x, tolerance));
+  return closest;
 }
 
 ClosestPointFinder::ClosestPointFinder(const LimitSurface &surface) :
@@ -251,11 +281,12 @@ ClosestPoint ClosestPointFinder::find(const Vector3d &x, double tolerance) const
   const int count = samples_.near(x, nearby);
   if (count == 0) throw MeshError("there is no membrane to find the closest point of, or no place");
   const double precise = tolerance_for(surface_, x, tolerance);
-  ClosestPoint best = Descent(surface_, x, nearby[0].point, nearby[0].offset).run(precise);
+  ClosestPoint best, other;
+  Descent(surface_, x, nearby[0].point, nearby[0].offset, best).run(precise);
   for (int i = 1; i < count; ++i) {
     const double distance = (best.foot - x).norm();
     if (nearby[i].distance - samples_.radius() >= distance) break;
-    const ClosestPoint other = Descent(surface_, x, nearby[i].point, nearby[i].offset).run(precise);
+    Descent(surface_, x, nearby[i].point, nearby[i].offset, other).run(precise);
     if ((other.foot - x).norm() < distance) best = other;
   }
   return best;

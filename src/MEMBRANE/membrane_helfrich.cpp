@@ -21,102 +21,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <type_traits>
 
 using namespace Membrane_NS;
 
 // beyond MOST_VALENCE graded rules have thousands of points and their derivative rows overflow
 static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of one face
-
-/* ----------------------------------------------------------------------
-   groups
-------------------------------------------------------------------------- */
-
-int FaceGroup::nblocks() const
-{
-  return (nfaces + LANES - 1) / LANES;
-}
-
-int FaceGroup::nslots() const
-{
-  return nblocks() * LANES;
-}
-
-int &FaceGroup::point(int i, int k)
-{
-  return points[(i / LANES * rule->size + k) * LANES + i % LANES];
-}
-
-int FaceGroup::point(int i, int k) const
-{
-  return points[(i / LANES * rule->size + k) * LANES + i % LANES];
-}
-
-std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchRules &rules,
-                                                const std::vector<int> &faces)
-{
-  // turn each face such that equal sets of valences give equal keys: fewer, fuller groups
-
-  struct Member {
-    int face, first;
-  };
-  std::map<Valences, std::vector<Member>> members;
-  for (int f : faces) {
-    const Valences n = topology.valences(f);
-    auto rank = [](const Valences &v) {
-      Valences r;
-      for (int k = 0; k < 3; ++k) r[k] = v[k] == 6 ? 0 : v[k];
-      return r;
-    };
-    int first = 0;
-    Valences key = n;
-    for (int k = 1; k < 3; ++k) {
-      const Valences turned = {n[k], n[(k + 1) % 3], n[(k + 2) % 3]};
-      if (rank(turned) > rank(key)) {
-        key = turned;
-        first = k;
-      }
-    }
-    members[key].push_back({f, first});
-  }
-
-  std::vector<FaceGroup> groups;
-  std::vector<int> stencil;
-  int slot = 0;
-  for (const auto &[valences, list] : members) {
-    FaceGroup group;
-    for (int n : valences)
-      if (n > MOST_VALENCE)
-        throw MeshError("face " + std::to_string(list[0].face) + " has a corner of valence " +
-                        std::to_string(n) + "; at most " + std::to_string(MOST_VALENCE) +
-                        " edges may meet in a vertex: remesh there");
-    group.rule = &rules.get(valences);
-    group.first_slot = slot;
-    group.nfaces = static_cast<int>(list.size());
-    group.points.resize(static_cast<size_t>(group.nslots()) * group.rule->size);
-    for (int i = 0; i < group.nslots(); ++i) {
-      const Member &member = list[std::min(i, group.nfaces - 1)];
-      if (i < group.nfaces) group.face.push_back(member.face);
-      topology.stencil(member.face, stencil, member.first);
-      for (int k = 0; k < group.rule->size; ++k) group.point(i, k) = stencil[k];
-    }
-    slot += group.nslots();
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-int Membrane_NS::count_slots(const std::vector<FaceGroup> &groups)
-{
-  return groups.empty() ? 0 : groups.back().first_slot + groups.back().nslots();
-}
-
-void FaceModel::resize(int nslots)
-{
-  for (auto *array : {&kc, &c0, &kg, &tension, &moment, &pressure}) array->assign(nslots, 0.0);
-  origin.assign(3 * static_cast<size_t>(nslots), 0.0);
-}
 
 namespace {
 

@@ -14,7 +14,7 @@
 #ifndef LMP_MEMBRANE_LANES_H
 #define LMP_MEMBRANE_LANES_H
 
-#include "membrane_helfrich.h"
+#include "membrane_face_groups.h"
 
 #include <cmath>
 #include <cstring>

@@ -17,6 +17,8 @@
 
 #include "membrane_limit_basis.h"
 
+#include "membrane_box_spline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -67,40 +69,19 @@ double Membrane_NS::energy_decay(int n)
   return std::max(lambda * lambda, mu * mu / (lambda * lambda));
 }
 
-/* ----------------------------------------------------------------------
-   The twelve quartic box splines of a regular face in the order of Topology::stencil(), as
-   polynomials in the barycentric coordinates t0 = 1-u-v, t1 = u, t2 = v [Stam 1998, appendix A].
-   By symmetry there are three kinds; a, b, c below are the corner meant and the next two.
-------------------------------------------------------------------------- */
-
 namespace {
 
-struct Monomial {
-  int coefficient, a, b, c;
-};
-
-// a corner of the face
-const std::vector<Monomial> CORNER = {
-    {6, 4, 0, 0},  {24, 3, 1, 0}, {24, 3, 0, 1}, {24, 2, 2, 0}, {60, 2, 1, 1},
-    {24, 2, 0, 2}, {8, 1, 3, 0},  {36, 1, 2, 1}, {36, 1, 1, 2}, {8, 1, 0, 3},
-    {1, 0, 4, 0},  {6, 0, 3, 1},  {12, 0, 2, 2}, {6, 0, 1, 3},  {1, 0, 0, 4}};
-
-// the point across the edge from corner a to corner b
-const std::vector<Monomial> ACROSS = {{1, 4, 0, 0}, {6, 3, 1, 0}, {12, 2, 2, 0},
-                                      {6, 1, 3, 0}, {1, 0, 4, 0}, {2, 3, 0, 1},
-                                      {6, 2, 1, 1}, {6, 1, 2, 1}, {2, 0, 3, 1}};
-
-// a point that only corner a touches, beyond the edge from a to b
-const std::vector<Monomial> BEYOND = {{1, 4, 0, 0}, {2, 3, 1, 0}};
-
 // value and barycentric derivatives d_i, d_ij of a polynomial in t[0..2]
-void add_polynomial(const std::vector<Monomial> &polynomial, const double t[3], double &value,
+template <size_t N>
+void add_polynomial(const BoxSpline::Polynomial<N> &polynomial, const double t[3], double &value,
                     double d[3], double dd[3][3])
 {
   value = 0.0;
   for (int i = 0; i < 3; ++i) d[i] = dd[i][0] = dd[i][1] = dd[i][2] = 0.0;
-  auto power = [](double x, int n) { return n < 0 ? 0.0 : std::pow(x, n); };
-  for (const Monomial &m : polynomial) {
+  auto power = [](double x, int n) {
+    return n < 0 ? 0.0 : std::pow(x, n);
+  };
+  for (const BoxSpline::Monomial &m : polynomial) {
     const int e[3] = {m.a, m.b, m.c};
     double p[3], dp[3], ddp[3];
     for (int i = 0; i < 3; ++i) {
@@ -128,7 +109,7 @@ LimitBasis::Weights Membrane_NS::box_spline(double u, double v)
   LimitBasis::Weights w(LimitBasis::ROWS, 12);
 
   // place one basis function: polynomial p with its a, b, c being corners a, b, c of the face
-  auto place = [&](int column, const std::vector<Monomial> &p, int a, int b, int c) {
+  auto place = [&](int column, const auto &p, int a, int b, int c) {
     const int corner[3] = {a, b, c};
     const double t[3] = {bary[a], bary[b], bary[c]};
     double value, local[3], local2[3][3], d[3], dd[3][3];
@@ -147,54 +128,22 @@ LimitBasis::Weights Membrane_NS::box_spline(double u, double v)
 
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3, prev = (k + 2) % 3;
-    place(k, CORNER, k, next, prev);
-    place(3 + 3 * k, ACROSS, prev, k, next);
-    place(4 + 3 * k, BEYOND, k, prev, next);
-    place(5 + 3 * k, BEYOND, k, next, prev);
+    place(k, BoxSpline::CORNER, k, next, prev);
+    place(3 + 3 * k, BoxSpline::ACROSS, prev, k, next);
+    place(4 + 3 * k, BoxSpline::BEYOND, k, prev, next);
+    place(5 + 3 * k, BoxSpline::BEYOND, k, next, prev);
   }
   return w;
 }
 
-// The same polynomials multiplied out, with t0 = 1 - u - v. Sums of integers over 12: exact but for
-// one rounding.
-
-static Quartics<12> multiplied_out()
-{
-  Quartics<12> quartics;
-  for (auto &term : quartics) term.setZero();
-  auto choose = [](int n, int k) {
-    double c = 1.0;
-    for (int i = 1; i <= k; ++i) c *= (n - k + i) / double(i);
-    return std::round(c);
-  };
-  auto place = [&](int column, const std::vector<Monomial> &p, int a, int b, int c) {
-    for (const Monomial &m : p) {
-      int e[3];
-      e[a] = m.a;
-      e[b] = m.b;
-      e[c] = m.c;
-      for (int i = 0; i <= e[0]; ++i)    // (1 - u - v)^e0 = sum of choose(e0, i) (-1)^i (u + v)^i
-        for (int j = 0; j <= i; ++j) {
-          const double sign = i % 2 ? -1.0 : 1.0;
-          quartics[quartic_term(e[1] + j, e[2] + i - j)][column] +=
-              sign * m.coefficient * choose(e[0], i) * choose(i, j);
-        }
-    }
-  };
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3, prev = (k + 2) % 3;
-    place(k, CORNER, k, next, prev);
-    place(3 + 3 * k, ACROSS, prev, k, next);
-    place(4 + 3 * k, BEYOND, k, prev, next);
-    place(5 + 3 * k, BEYOND, k, next, prev);
-  }
-  for (auto &term : quartics) term /= 12.0;
-  return quartics;
-}
-
 const Quartics<12> &Membrane_NS::box_spline_quartics()
 {
-  static const Quartics<12> quartics = multiplied_out();
+  static const Quartics<12> quartics = [] {
+    Quartics<12> q;
+    for (int term = 0; term < QUARTIC_TERMS; ++term)
+      for (int i = 0; i < 12; ++i) q[term][i] = BoxSpline::TWELFTHS[term][i] / 12.0;
+    return q;
+  }();
   return quartics;
 }
 
@@ -278,9 +227,15 @@ MatrixXd LimitBasis::child_matrix(int child) const
 {
   std::array<std::vector<RowVectorXd>, 3> list;
   std::array<RowVectorXd, 3> corner;
-  auto midpoint = [&](int a) { return edge_point(a, 0); };
-  auto to_across = [&](int a) { return edge_point(a, valences_[a] - 1); };
-  auto from_across = [&](int a) { return edge_point((a + 1) % 3, 2); };
+  auto midpoint = [&](int a) {
+    return edge_point(a, 0);
+  };
+  auto to_across = [&](int a) {
+    return edge_point(a, valences_[a] - 1);
+  };
+  auto from_across = [&](int a) {
+    return edge_point((a + 1) % 3, 2);
+  };
 
   if (child < 3) {
     const int k = child, next = (k + 1) % 3, prev = (k + 2) % 3;

@@ -17,6 +17,8 @@
 
 #include "membrane_limit_patch.h"
 
+#include "membrane_box_spline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -183,18 +185,13 @@ void LimitPatch::part_points(const RegularPart &part, const Lane4 *x, Lane4 &ori
 void LimitPatch::polynomial(const RegularPart &part, const Lane4 *x, Lane4 &origin,
                             Quartics<4> &out) const
 {
-  Lane4 y[12];
+  std::array<Lane4, 12> y;
   if (regular_) {
     origin = x[0];
     for (int i = 0; i < 12; ++i) y[i] = x[i] - origin;
   } else
-    part_points(part, x, origin, y);
-  const Quartics<12> &basis = box_spline_quartics();
-  for (int term = 0; term < QUARTIC_TERMS; ++term) {
-    Lane4 sum = basis[term][0] * y[0];
-    for (int i = 1; i < 12; ++i) sum += basis[term][i] * y[i];
-    out[term] = sum;
-  }
+    part_points(part, x, origin, y.data());
+  BoxSpline::polynomial(y, out);
 }
 
 Lane4 LimitPatch::corner_position(int corner, const Lane4 *x) const

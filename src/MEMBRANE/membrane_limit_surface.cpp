@@ -136,7 +136,7 @@ void LimitSurface::make_piece(const SurfacePoint &p, SurfacePiece &piece) const
 }
 
 template <int ORDER>
-SurfaceJet LimitSurface::evaluate(const SurfacePoint &p, SurfacePiece &piece) const
+void LimitSurface::evaluate(const SurfacePoint &p, SurfacePiece &piece, SurfaceJet &jet) const
 {
   const LimitPatch &patch = *patch_[p.face];
   SurfacePoint at = p;
@@ -144,7 +144,6 @@ SurfaceJet LimitSurface::evaluate(const SurfacePoint &p, SurfacePiece &piece) co
   if (corner >= 0) LimitPatch::move_inside(corner, at.u, at.v);
   if (!piece.contains(at)) make_piece(at, piece);
 
-  SurfaceJet jet;
   QuarticJet<4> &rows = jet.rows();
   const RegularPart &part = piece.part;
   evaluate_quartics<ORDER, 4>(piece.polynomial, part.scale * at.u + part.u0,
@@ -156,13 +155,14 @@ SurfaceJet LimitSurface::evaluate(const SurfacePoint &p, SurfacePiece &piece) co
     gather(p.face, x);
     rows[Derivative::VALUE] = patch.corner_position(corner, x);
   }
-  return jet;
 }
 
 template <int ORDER> SurfaceJet LimitSurface::evaluate(const SurfacePoint &p) const
 {
   SurfacePiece piece;
-  return evaluate<ORDER>(p, piece);
+  SurfaceJet jet;
+  evaluate<ORDER>(p, piece, jet);
+  return jet;
 }
 
 template <int ORDER> void LimitSurface::weights(const SurfacePoint &p, SurfaceWeights &out) const
@@ -174,10 +174,10 @@ template SurfaceJet LimitSurface::evaluate<0>(const SurfacePoint &) const;
 template SurfaceJet LimitSurface::evaluate<1>(const SurfacePoint &) const;
 template SurfaceJet LimitSurface::evaluate<2>(const SurfacePoint &) const;
 template SurfaceJet LimitSurface::evaluate<3>(const SurfacePoint &) const;
-template SurfaceJet LimitSurface::evaluate<0>(const SurfacePoint &, SurfacePiece &) const;
-template SurfaceJet LimitSurface::evaluate<1>(const SurfacePoint &, SurfacePiece &) const;
-template SurfaceJet LimitSurface::evaluate<2>(const SurfacePoint &, SurfacePiece &) const;
-template SurfaceJet LimitSurface::evaluate<3>(const SurfacePoint &, SurfacePiece &) const;
+template void LimitSurface::evaluate<0>(const SurfacePoint &, SurfacePiece &, SurfaceJet &) const;
+template void LimitSurface::evaluate<1>(const SurfacePoint &, SurfacePiece &, SurfaceJet &) const;
+template void LimitSurface::evaluate<2>(const SurfacePoint &, SurfacePiece &, SurfaceJet &) const;
+template void LimitSurface::evaluate<3>(const SurfacePoint &, SurfacePiece &, SurfaceJet &) const;
 template void LimitSurface::weights<0>(const SurfacePoint &, SurfaceWeights &) const;
 template void LimitSurface::weights<1>(const SurfacePoint &, SurfaceWeights &) const;
 template void LimitSurface::weights<2>(const SurfacePoint &, SurfaceWeights &) const;

@@ -65,7 +65,8 @@ class LimitSurface {
       subdominant_eigenvalue(): 2 at valence 3, 1 at 6, 0.7 at 20. */
   template <int ORDER = 2> SurfaceJet evaluate(const SurfacePoint &p) const;
   /// The same, with a polynomial that is worked out anew only where the point has left it.
-  template <int ORDER = 2> SurfaceJet evaluate(const SurfacePoint &p, SurfacePiece &piece) const;
+  template <int ORDER = 2>
+  void evaluate(const SurfacePoint &p, SurfacePiece &piece, SurfaceJet &jet) const;
 
   /** Weights of the control points, rows up to ORDER; the columns are stencil(p.face). The force f on a
       point bound to p is weights(VALUE, k) f on control point k. */

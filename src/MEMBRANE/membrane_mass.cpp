@@ -17,69 +17,10 @@
 
 #include "membrane_mass.h"
 
-#include "membrane_mass_consistent.h"
-#include "membrane_mass_lumped.h"
-#include "membrane_mass_vertex.h"
-
 #include <cmath>
 #include <stdexcept>
 
 using namespace Membrane_NS;
-
-/* ---------------------------------------------------------------------- */
-
-namespace {
-
-template <class Mass>
-std::unique_ptr<MassOperator> make_mass(const VertexMasses &vertices,
-                                        const MassOperator::Settings &settings)
-{
-  return std::make_unique<Mass>(vertices, settings);
-}
-
-// by MassKind
-
-struct Kind {
-  const char *name;
-  int halo_rings;
-  std::unique_ptr<MassOperator> (*make)(const VertexMasses &, const MassOperator::Settings &);
-};
-constexpr Kind KINDS[] = {{"vertex", 1, make_mass<VertexMass>},
-                          {"consistent", 3, make_mass<ConsistentMass>},
-                          {"lumped", 0, make_mass<LumpedMass>}};
-
-const Kind &description(MassKind kind)
-{
-  return KINDS[static_cast<int>(kind)];
-}
-
-}    // namespace
-
-const char *Membrane_NS::mass_kind_name(MassKind kind)
-{
-  return description(kind).name;
-}
-
-bool Membrane_NS::find_mass_kind(const std::string &name, MassKind &kind)
-{
-  for (const Kind &known : KINDS)
-    if (name == known.name) {
-      kind = static_cast<MassKind>(&known - KINDS);
-      return true;
-    }
-  return false;
-}
-
-std::unique_ptr<MassOperator> MassOperator::make(const VertexMasses &vertices,
-                                                 const Settings &settings)
-{
-  return description(settings.kind).make(vertices, settings);
-}
-
-int MassOperator::halo_rings(MassKind kind)
-{
-  return description(kind).halo_rings;
-}
 
 /* ---------------------------------------------------------------------- */
 

@@ -33,11 +33,6 @@ enum class MassKind {
   LUMPED         ///< on the control points themselves: right equilibrium, wrong dynamics
 };
 
-/// How kinds are called in input scripts.
-const char *mass_kind_name(MassKind kind);
-/// The kind of that name; false if there is none.
-bool find_mass_kind(const std::string &name, MassKind &kind);
-
 /// What a mass matrix is made of: the vertices of a rank, with numbers for all of the topology.
 struct VertexMasses {
   const Topology &topology;
@@ -49,7 +44,7 @@ struct VertexMasses {
 /** The mass matrix M of the control points' kinetic energy (1/2) qdot^T M qdot, the same for x, y
     and z: momenta p = M v, velocities v = M^-1 p and random velocities with <v v^T> = kT M^-1.
 
-    A new kind derives from this, has its line in the table of membrane_mass.cpp, and needs
+    A new kind derives from this, has its line in the table of membrane_mass_kinds.cpp, and needs
     multiply(), solve() and sample() alone. Fields have an entry for each vertex of the part; only
     owned entries are read and written. All functions that take fields are collective. */
 class MassOperator {
@@ -60,11 +55,6 @@ class MassOperator {
     double tolerance = 1.0e-10;    ///< of the residual, relative to the right-hand side
     int most_passes = 1000;        ///< of conjugate gradients, which need some 30 to 200
   };
-
-  /// The matrix of these settings. MeshError if it cannot be made.
-  static std::unique_ptr<MassOperator> make(const VertexMasses &, const Settings &);
-  /// How many edges the halo of the part has to reach beyond the owned vertices.
-  static int halo_rings(MassKind kind);
 
   virtual ~MassOperator() = default;
 

@@ -32,37 +32,45 @@ static constexpr double MOST_CELLS = 1024;    // in each direction
 
 namespace {
 
-// the parts of a face: where their middles and corners are
+// the parts of a face: where their corners and middles are
 
-struct Part {
-  std::array<double, 2> middle;
-  std::array<std::array<double, 2>, 3> corner;
+using Place = std::array<double, 2>;    // u, v
+
+struct Cut {
+  std::vector<Place> corner;
+  struct Part {
+    Place middle;
+    std::array<int, 3> corner;
+  };
+  std::vector<Part> part;
+
+  Cut()
+  {
+    std::array<std::array<int, CUTS + 1>, CUTS + 1> number;
+    for (int j = 0; j <= CUTS; ++j)
+      for (int i = 0; i + j <= CUTS; ++i) {
+        number[i][j] = static_cast<int>(corner.size());
+        corner.push_back({i / double(CUTS), j / double(CUTS)});
+      }
+    for (int j = 0; j < CUTS; ++j)
+      for (int i = 0; i + j < CUTS; ++i) {
+        add({number[i][j], number[i + 1][j], number[i][j + 1]});
+        if (i + j + 1 < CUTS) add({number[i + 1][j], number[i + 1][j + 1], number[i][j + 1]});
+      }
+  }
+  void add(const std::array<int, 3> &c)
+  {
+    Place middle;
+    for (int k = 0; k < 2; ++k)
+      middle[k] = (corner[c[0]][k] + corner[c[1]][k] + corner[c[2]][k]) / 3.0;
+    part.push_back({middle, c});
+  }
 };
 
-std::vector<Part> cut_face()
+const Cut &cut_face()
 {
-  std::vector<Part> parts;
-  auto add = [&parts](int i, int j, int side) {
-    Part part;
-    part.corner = {{{i / double(CUTS), j / double(CUTS)},
-                    {(i + side) / double(CUTS), j / double(CUTS)},
-                    {i / double(CUTS), (j + side) / double(CUTS)}}};
-    for (int k = 0; k < 2; ++k)
-      part.middle[k] = (part.corner[0][k] + part.corner[1][k] + part.corner[2][k]) / 3.0;
-    parts.push_back(part);
-  };
-  for (int j = 0; j < CUTS; ++j)
-    for (int i = 0; i + j < CUTS; ++i) {
-      add(i, j, 1);
-      if (i + j + 1 < CUTS) add(i + 1, j + 1, -1);
-    }
-  return parts;
-}
-
-const std::vector<Part> &parts_of_face()
-{
-  static const std::vector<Part> parts = cut_face();
-  return parts;
+  static const Cut cut;
+  return cut;
 }
 
 }    // namespace
@@ -109,19 +117,24 @@ void SampleGrid::update()
 
 void SampleGrid::take_samples(std::vector<Sample> &samples)
 {
-  const std::vector<Part> &parts = parts_of_face();
-  radius_ = 0.0;
+  const Cut &cut = cut_face();
+  samples.reserve(cut.part.size() * surface_.topology().num_faces());
+  std::vector<Vector3d> corner(cut.corner.size());
   SurfacePiece piece;
-  for (int f = 0; f < surface_.topology().num_faces(); ++f)
-    for (size_t p = 0; p < parts.size(); ++p) {
-      auto position = [&](const std::array<double, 2> &uv) {
-        return surface_.evaluate<0>({f, uv[0], uv[1]}, piece).position();
-      };
-      const Vector3d middle = position(parts[p].middle);
+  SurfaceJet jet;
+  radius_ = 0.0;
+  for (int f = 0; f < surface_.topology().num_faces(); ++f) {
+    auto position = [&](const Place &uv) {
+      surface_.evaluate<0>({f, uv[0], uv[1]}, piece, jet);
+      return jet.position();
+    };
+    for (size_t c = 0; c < corner.size(); ++c) corner[c] = position(cut.corner[c]);
+    for (size_t p = 0; p < cut.part.size(); ++p) {
+      const Vector3d middle = position(cut.part[p].middle);
       samples.push_back({middle, f, static_cast<int>(p)});
-      for (const auto &corner : parts[p].corner)
-        radius_ = std::max(radius_, (position(corner) - middle).norm());
+      for (int c : cut.part[p].corner) radius_ = std::max(radius_, (corner[c] - middle).norm());
     }
+  }
   radius_ *= MARGIN;
 }
 
@@ -219,7 +232,7 @@ class SampleGrid::Collector {
       }
     } else if (distance >= nearby_[place].distance)
       return;
-    const auto &uv = parts_of_face()[sample.which].middle;
+    const auto &uv = cut_face().part[sample.which].middle;
     nearby_[place] = {{sample.face, uv[0], uv[1]}, offset, distance};
   }
 

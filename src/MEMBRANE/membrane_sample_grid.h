@@ -34,8 +34,7 @@ class SampleGrid {
   /// A sample near a place.
   struct Near {
     SurfacePoint point;
-    Eigen::Vector3d
-        offset;    ///< from the place to the sample, in the image that was found near it
+    Eigen::Vector3d offset;    ///< from the place to the sample, an image near it
     double distance;
   };
   static constexpr int MOST_NEAR = 12;

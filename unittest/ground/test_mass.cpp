@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "membrane_mass.h"
+#include "membrane_mass_kinds.h"
 #include "membrane_mesh_shapes.h"
 #include "membrane_random.h"
 #include "one_rank.h"
@@ -44,7 +44,7 @@ struct Body {
   Body(TriangleMesh m, MassKind kind, bool direct = false, double tolerance = 1.0e-10) :
       mesh(std::move(m)), topology(mesh.points.size(), mesh.faces), part(topology),
       masses(uneven(mesh.points.size())), labels(numbers(mesh.points.size())),
-      matrix(MassOperator::make({topology, part, masses, labels}, {kind, direct, tolerance}))
+      matrix(make_mass({topology, part, masses, labels}, {kind, direct, tolerance}))
   {
   }
   int size() const { return part.owned; }
@@ -139,7 +139,7 @@ TEST(MassOperator, ConsistentRowOfARegularMeshIsTheTextbookOne)
   std::vector<double> masses(mesh.points.size(), 1.0);
   const auto labels = Body::numbers(mesh.points.size());
   const auto matrix =
-      MassOperator::make({topology, part, masses, labels}, {MassKind::CONSISTENT, false, 1e-10});
+      make_mass({topology, part, masses, labels}, {MassKind::CONSISTENT, false, 1e-10});
   VertexField unit(part.owned, Vector4{}), row(part.owned);
   unit[0].c[0] = 1.0;
   matrix->multiply(unit, row);
@@ -237,7 +237,7 @@ TEST(MassOperator, RecordsTheResidualOfASolutionThatMissedTheTolerance)
 {
   for (int most_passes : {1000, 5}) {
     Body body(icosphere(2, 1.0), MassKind::CONSISTENT);
-    body.matrix = MassOperator::make({body.topology, body.part, body.masses, body.labels},
+    body.matrix = make_mass({body.topology, body.part, body.masses, body.labels},
                                      {MassKind::CONSISTENT, false, 1e-10, most_passes});
     const VertexField p = rough(body.size());
     VertexField v(body.size());

@@ -44,6 +44,8 @@ TEST(SurfacePoint, AgreesWithTheLimitBasisToSecondOrder)
       }
     }
   }
+  for (int row = 0; row < LimitBasis::ROWS; ++row)
+    RecordProperty("worst_" + std::to_string(row), scientific(worst[row]));
   EXPECT_LT(worst[LimitBasis::VALUE], 1.0e-13);
   for (int row : {LimitBasis::DU, LimitBasis::DV}) EXPECT_LT(worst[row], 1.0e-12);
   for (int row : {LimitBasis::DUU, LimitBasis::DUV, LimitBasis::DVV})
@@ -108,6 +110,8 @@ TEST(SurfacePoint, DerivativesToThirdOrderAreThoseOfDifferences)
       }
     }
   }
+  for (int order : {1, 2, 3})
+    RecordProperty("worst_" + std::to_string(order), scientific(worst[order]));
   EXPECT_GT(close, 100);
   for (int order : {1, 2, 3}) EXPECT_LT(worst[order], 2.0e-12) << "order " << order;
 }

@@ -118,6 +118,8 @@ TEST(SurfaceWalk, AcrossAnyEdgeTheSurfaceIsTwiceContinuouslyDifferentiable)
                                 (1.0 + second(a, x, y).norm()));
     }
   }
+  for (int order : {0, 1, 2})
+    RecordProperty("worst_" + std::to_string(order), scientific(worst[order]));
   EXPECT_LT(worst[0], 1e-13);
   EXPECT_LT(worst[1], 1e-12);
   EXPECT_LT(worst[2], 1e-11);

@@ -1,4 +1,5 @@
 """Waves on a sheet and oscillations of a sphere have the frequencies of theory with fix hd/nve."""
+# cost: 20
 
 import math
 

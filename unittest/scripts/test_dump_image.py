@@ -1,4 +1,5 @@
 """dump membrane/image draws the limit surface: whole, smooth, in the right colors, on any rank."""
+# cost: 15
 
 import glob
 import os

@@ -1,4 +1,5 @@
 """Bad input gets one LAMMPS error line that names the thing and the cure, on one rank and on two."""
+# cost: 15
 
 import concurrent.futures
 import os

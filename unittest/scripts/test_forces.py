@@ -1,4 +1,5 @@
 """Forces of pair helfrich are minus the gradient of its energy: every term, every kind of mesh."""
+# cost: 15
 
 from lammps_claims import claim, finish, run, thermo
 from membrane_scenes import SCENES, coefficients, largest, read_dump, terms_of

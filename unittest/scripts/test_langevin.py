@@ -1,5 +1,7 @@
 """fix hd/langevin and hd/brownian: relaxation rates of one mode, temperature, energy balance, restarts,
 ranks."""
+# cost: 30
+# processors: 2
 
 import math
 

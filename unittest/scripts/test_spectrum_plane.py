@@ -10,7 +10,7 @@ run, each many relaxation times long. Of many means some are off by more than tw
 chance: the claims are that the largest deviation and the sum of squares are within what 99 % of runs
 have. Seeds are fixed.
 """
-# cost: 60
+# cost: 70
 # timeout: 7200
 
 import math

@@ -4,13 +4,15 @@
 
 As test_spectrum_plane.py; all m of one l are taken together.
 
-Theory for a continuous sphere has <u_lm^2> = kT/[kc (l-1)(l+2)(l(l+1) + s)] (Milner and Safran, Phys Rev A,
-36, 4371, 1987). A mesh of
-so many points, held in shape by regularize, has a little less: what is expected is RESPONSE, the same harmonic average
-from the Hessian of the energy of this very mesh (bench/sphere_response.py). Without regularize it is theory to 2e-5 at
-162 points, with it 0.3 to 0.5 % less, at 642 points 0.1 to 0.3 %: more than the errors of a long run. An integral over
-control points favours large faces, as an energy of -(3/2) kT ln(area) of each vertex does, which to first order changes
-the power of degree l by the relative amount entropy(), 4e-4 or less here.
+Theory for a continuous sphere has <u_lm^2> = kT/[kc (l-1)(l+2)(l(l+1) + s)] (Milner and Safran, Phys Rev A, 36, 4371,
+1987). A mesh of so many points, held in shape by regularize, has a little less: what is expected is RESPONSE, the same
+harmonic average from the Hessian of the energy of this very mesh (bench/sphere_response.py). Without regularize it is
+theory to 2e-5 at 162 points, with it 0.4 to 0.5 % less, at 642 points 0.1 to 0.3 %: as much as the errors of a long run.
+
+At kT = 1e-5 kc undulations are harmonic to 0.05 %: runs at 1e-6, with the same noise and so with the same statistical
+errors, have the same powers. At 1e-4 they differ by up to 0.2 %, since control points slide. That an integral over these favours
+large faces, as an energy of -(3/2) kT ln(area) of each vertex does, changes the power of degree l by the part
+(3/2) N kT [l(l+1) - 6]/[4 pi kc (l-1)(l+2)(l(l+1) + s)], 4e-5 or less.
 """
 # cost: 60
 # timeout: 7200
@@ -20,9 +22,9 @@ import math
 from lammps_claims import LONG, claim, finish, run, thermo
 from mode_statistics import EVERY, agree, averages, block_length, compare, mean_and_error
 
-KT = 1e-4
-# an error from 32 blocks is uncertain by 13 %, and deviations beyond the limits of compare() twice as frequent as they should
-# be; from 128 by 6 %. In a long run these, too, last many relaxation times
+KT = 1e-5
+# An error from 32 blocks is uncertain by 13 %, and deviations beyond the limits of compare() are twice as frequent
+# as these say; from 128 by 6 %. In a long run those, too, last many relaxation times
 BLOCKS = 128 if LONG else 32
 
 # bench/sphere_response.py: <u_lm^2> for kT = kc = 1, mean over m
@@ -31,11 +33,6 @@ RESPONSE = {
     "162 points": {2: 0.0415027, 3: 0.00830212, 4: 0.00276314},
     "162 points, s = 4.5": {2: 0.0237928, 3: 0.00604995, 4: 0.00225923},
 }
-
-
-def entropy(points, l, s):
-    return 1.5 * points * KT * (l * (l + 1) - 6) / (4 * math.pi * (l - 1) * (l + 2) * (l * (l + 1) + s))
-
 
 for name, response in RESPONSE.items():
     s = 4.5 if "s = 4.5" in name else 0.0
@@ -48,7 +45,7 @@ for name, response in RESPONSE.items():
 # m is the same in any attitude.
 
 
-def sphere(fix, dt, steps, level=3, response="642 points", terms="", c0=0.0, s=0.0):
+def sphere(fix, dt, steps, level=3, response="642 points", terms="", c0=0.0):
     per, points = block_length(1000000 if LONG else steps, BLOCKS), 10 * 4 ** level + 2
     lmax = max(RESPONSE[response])
     columns = " ".join(f"c_m[{row}][6]" for row in range(1, (lmax + 1) ** 2 + 1))
@@ -78,14 +75,14 @@ run             {BLOCKS * per}
     blocks, rest = averages("power.txt"), [row for row in thermo(output) if "c_m[1][6]" in row][-1]
     result = {}
     for l in range(2, lmax + 1):
-        power = KT * RESPONSE[response][l] * (1 + entropy(points, l, s))
+        power = KT * RESPONSE[response][l]
         at_rest = sum(rest[f"c_m[{row}][6]"] for row in range(l * l + 1, (l + 1) ** 2 + 1))
         result[f"l = {l}"] = mean_and_error([(sum(block[l * l:(l + 1) ** 2]) - at_rest) / (2 * l + 1) / power
                                              for block in blocks])
     return result
 
 
-langevin = sphere(f"hd/langevin {KT} {KT} 0.1 4713 mass lumped", 0.008, 40000)
+langevin = sphere(f"hd/langevin {KT} {KT} 0.1 4718 mass lumped", 0.008, 40000)
 compare("sphere of 642 points, hd/langevin", langevin)
 small = dict(level=2, response="162 points")
 DRAG = 4 * math.pi / 162
@@ -95,7 +92,7 @@ compare("sphere of 162 points, hd/langevin", coarse)
 compare("sphere of 162 points, hd/brownian", brownian)
 agree("sphere: hd/langevin and hd/brownian", coarse, brownian)
 compare("sphere of 162 points with c0 = -1 and tension 2: s = 4.5",
-        sphere(f"hd/langevin {KT} {KT} 0.1 4714 mass lumped", 0.03, 40000, terms="tension 2.0", c0=-1.0, s=4.5, level=2,
+        sphere(f"hd/langevin {KT} {KT} 0.1 4714 mass lumped", 0.03, 40000, terms="tension 2.0", c0=-1.0, level=2,
                response="162 points, s = 4.5"))
 
 finish()

@@ -22,6 +22,7 @@ tenth of its limit; with velocities on time it would be 0 here and as much too h
 
     MEMBRANE_LONG=1    seven times as long, and collision slip, too, for twenty times as long
 """
+# cost: 60
 # timeout: 7200
 
 import math

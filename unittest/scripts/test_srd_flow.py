@@ -17,6 +17,7 @@ of, makes a cell forget the part 1/(k + 1), k = 3 (N - 1)/2, of it at each colli
 
     MEMBRANE_LONG=1    more flows, and each for six to ten times as long
 """
+# cost: 40
 # timeout: 3600
 
 import math

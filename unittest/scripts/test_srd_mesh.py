@@ -1,4 +1,6 @@
 """fix srd/mesh with membranes: what a collision keeps, that nothing passes, ranks, restarts, scenes."""
+# cost: 60
+# processors: 2
 
 import math
 import os

@@ -3,6 +3,7 @@
 A helical wave v = A (sin kz, cos kz, 0), which heats the fluid evenly, decays as exp(-nu k^2 t). Its two
 amplitudes u follow u(t + s) = r u(t) + noise, so r is the regression over many decays from fresh
 thermal states; its error is the jackknife over the decays. Runs with MEMBRANE_LONG=1 only."""
+# timeout: 7200
 
 import math
 

@@ -1,4 +1,6 @@
 """hd_timestep finds the stability limit, leaves no trace, and the integrators stop beyond the limit."""
+# cost: 25
+# processors: 2
 
 import math
 import re

@@ -1,0 +1,70 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_FACE_GROUPS_H
+#define LMP_MEMBRANE_FACE_GROUPS_H
+
+#include "membrane_quadrature.h"
+#include "membrane_topology.h"
+
+#include <vector>
+
+namespace Membrane_NS {
+
+/// Faces are evaluated LANES at a time, one to a lane of the vector unit of the machine that this is
+/// compiled for: more lanes than it has go through memory in pieces, which is ten times slower.
+#if defined(__AVX512F__)
+constexpr int LANES = 8;
+#elif defined(__AVX__)
+constexpr int LANES = 4;
+#else
+constexpr int LANES = 2;
+#endif
+
+/** Faces that share a quadrature rule, in blocks of LANES. A face of the group has a slot; slots
+    of all groups of a mesh are numbered through, so one array per property serves them all. The
+    last block of a group is filled up with copies of its last face: slots from first_slot + nfaces on
+    hold their values and must be left out of sums. Valences up to 32, else MeshError. */
+struct FaceGroup {
+  const PatchRule *rule = nullptr;
+  int first_slot = 0;
+  int nfaces = 0;
+  std::vector<int> face;      ///< [nfaces] index in the topology
+  std::vector<int> points;    ///< [nblocks][rule->size][LANES] control point indices
+  // not inline: who includes this may be compiled for another machine's vectors
+  int nblocks() const;
+  int nslots() const;
+  /// The k-th control point of the i-th face of the group.
+  int &point(int i, int k);
+  int point(int i, int k) const;
+};
+
+/// Sort faces into groups; `points` holds vertex indices. Groups keep pointers into `rules`.
+std::vector<FaceGroup> group_faces(const Topology &topology, PatchRules &rules,
+                                   const std::vector<int> &faces);
+/// The number of slots of all groups.
+int count_slots(const std::vector<FaceGroup> &groups);
+
+/** What each face is made of, by slot: the energy of a face is
+    integral kc/2 (2H - c0)^2 + kg K + moment 2H + tension dA, and pressure is dE/dV of its
+    membrane. 2H = +2/R on a sphere with outward normals. Any consistent units. */
+struct FaceModel {
+  std::vector<double> kc, c0, kg, tension, moment, pressure;
+  std::vector<double> origin;    ///< [slots][3] the point volumes are measured from, in the
+                                 ///< periodic image that the face is in
+  void resize(int nslots);
+};
+
+}    // namespace Membrane_NS
+
+#endif
