@@ -128,7 +128,7 @@ TEST(ClosestPoint, NothingIsCloserThanWhatIsFound)
     const Search scene(mesh);
     const double edge = scene.surface.mean_edge();
     Random random(32);
-    for (int i = 0; i < how_many(10, 200); ++i) {
+    for (int i = 0; i < how_many(8, 200); ++i) {
       const Vector3d x = scene.position(random_point(scene.topology, random)) +
           0.5 / std::sqrt(3.0) * edge * random.vector();
       const ClosestPoint found = scene.finder.find(x);
@@ -152,7 +152,7 @@ TEST(ClosestPoint, BeyondTheRadiusOfCurvatureAFootIsFoundAndMostlyTheClosest)
     if (scene.topology.num_faces() > 400) continue;
     const double edge = scene.surface.mean_edge();
     Random random(32);
-    for (int i = 0; i < how_many(20, 1000); ++i) {
+    for (int i = 0; i < how_many(8, 1000); ++i) {
       const Vector3d x =
           scene.position(random_point(scene.topology, random)) + 0.5 * edge * random.vector();
       const double excess =
@@ -165,7 +165,7 @@ TEST(ClosestPoint, BeyondTheRadiusOfCurvatureAFootIsFoundAndMostlyTheClosest)
   RecordProperty("places", std::to_string(count));
   RecordProperty("further", std::to_string(further));
   RecordProperty("worst", scientific(worst));
-  EXPECT_LE(further, 0.02 * count);
+  EXPECT_LE(further, 0.05 * count);
   EXPECT_LT(worst, 0.2);
 }
 
@@ -196,7 +196,7 @@ TEST(ClosestPoint, NextToVerticesOfAnyValenceTheFootIsFound)
     const double edge = scene.surface.mean_edge();
     Random random(34);
     int lost = 0;
-    for (int i = 0; i < how_many(300, 5000); ++i) {
+    for (int i = 0; i < how_many(60, 5000); ++i) {
       const int f = scene.topology.faces_around(n)[random.below(n)];
       const int k = corner_of(scene.topology.face(f), n);
       const double s = std::pow(2.0, -28.0 * random.uniform()), a = random.uniform();
