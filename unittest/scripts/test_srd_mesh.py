@@ -1,5 +1,5 @@
 """fix srd/mesh with membranes: what a collision keeps, that nothing passes, ranks, restarts, scenes."""
-# cost: 60
+# cost: 90
 # processors: 2
 
 import math
