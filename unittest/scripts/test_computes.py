@@ -457,9 +457,9 @@ create_box      1 box angle/types 1
 """
 error = error_of(PLAIN.format("angle", "compute s all membrane/shape"))
 claim("membrane/shape needs atom style membrane_cp",
-      "Compute membrane/shape needs control points: use atom_style membrane_cp" in error, error)
+      "Compute s membrane/shape needs control points: use atom_style membrane_cp" in error, error)
 error = error_of(PLAIN.format("angle", "compute s all membrane/curvature/atom"))
-claim("so does membrane/curvature/atom", "Compute membrane/curvature/atom needs control points" in error,
+claim("so does membrane/curvature/atom", "Compute s membrane/curvature/atom needs control points" in error,
       error)
 for arguments, message in (("quadrature 5", "quadrature 5 is not one of 1, 3, 6, 12, careful"),
                            ("quadrature", "compute membrane/shape quadrature"),
