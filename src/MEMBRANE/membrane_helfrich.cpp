@@ -56,13 +56,13 @@ struct BlockIntegrals {
 
 template <int SIZE, bool VOLUME, bool CURVATURE>
 void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot,
-                     BlockIntegrals &sum)
+                     BlockIntegrals &out)
 {
   const int size = SIZE ? SIZE : rule.size;
   const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
   const Lane kc = CURVATURE ? load(model.kc, slot) : Lane{};
   const Lane c0 = CURVATURE ? load(model.c0, slot) : Lane{};
-  sum = BlockIntegrals{};
+  BlockIntegrals sum{};    // not `out`: sums stay in registers
   for (int q = 0; q < rule.npoints; ++q) {
     const double weight = rule.weight[q];
     const Lane3 ru = combine(rule.row(q, LimitBasis::DU), x, size);
@@ -86,6 +86,7 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
       sum.bending += (0.5 * weight) * kc * excess * excess * J;
     }
   }
+  out = sum;
 }
 
 /* ----------------------------------------------------------------------
