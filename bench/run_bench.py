@@ -51,11 +51,18 @@ FLOPS = 2 * 5 * 12 * 3 * 2 + 160
 PEAK = r"""
 #include <chrono>
 #include <cstdio>
-typedef double V __attribute__((vector_size(64)));
+#if defined(__AVX512F__)
+constexpr int LANES = 8;
+#elif defined(__AVX__)
+constexpr int LANES = 4;
+#else
+constexpr int LANES = 2;    // wider vectors than the machine's would go through memory
+#endif
+typedef double V __attribute__((vector_size(8 * LANES)));
 int main()
 {
   V x[10], a = {}, b = {};
-  for (int l = 0; l < 8; ++l) a[l] = 1.0 - 1e-9 * l, b[l] = 1e-9;
+  for (int l = 0; l < LANES; ++l) a[l] = 1.0 - 1e-9 * l, b[l] = 1e-9;
   for (auto &v : x) v = a;
   double best = 0.0;
   for (int repeat = 0; repeat < 20; ++repeat) {
@@ -63,7 +70,7 @@ int main()
     for (int i = 0; i < 2000000; ++i)
       for (auto &v : x) v = v * a + b;
     const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (2000000.0 * 10 * 8 * 2 / s > best) best = 2000000.0 * 10 * 8 * 2 / s;
+    if (2000000.0 * 10 * LANES * 2 / s > best) best = 2000000.0 * 10 * LANES * 2 / s;
   }
   double sum = 0.0;
   for (auto &v : x) sum += v[0];

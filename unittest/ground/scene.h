@@ -17,6 +17,7 @@
 // What the ground floor's tests share: meshes to test on, and a Scene that evaluates one as the
 // pair style does, periodic images becoming ghost points with indices of their own.
 
+#include "how_many.h"
 #include "membrane_helfrich.h"
 #include "membrane_mesh_file.h"
 #include "membrane_mesh_shapes.h"

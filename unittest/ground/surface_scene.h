@@ -42,12 +42,6 @@ struct SurfaceScene {
   }
 };
 
-/// The number of random places in a test: all of them in a long run.
-inline int how_many(int number, int in_a_long_run)
-{
-  return std::getenv("MEMBRANE_LONG") ? in_a_long_run : number;
-}
-
 /// Anywhere on the surface, or with `close`, half of them within 2^-28 to 1 of a corner.
 inline SurfacePoint random_point(const Topology &topology, Random &random, bool close = false)
 {

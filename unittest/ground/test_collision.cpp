@@ -17,6 +17,7 @@
 
 #include "membrane_srd_approach_list.h"
 #include "membrane_srd_collision.h"
+#include "how_many.h"
 #include "membrane_srd_events.h"
 #include "membrane_srd_surface_grid.h"
 #include "membrane_srd_inverse_mask.h"
@@ -35,6 +36,7 @@
 #include <random>
 
 using namespace Membrane_NS;
+using Membrane_TEST::how_many;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -286,7 +288,7 @@ TEST(TriangleCollision, AgreesWithDenseSampling)
   Random random(1);
   const TriangleCollision collision;
   int hits = 0, agree = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < how_many(4000); ++trial) {
     Corners corners;
     for (MovingPoint &c : corners) c = {random.vector(1.0), random.vector(1.0)};
     const MovingPoint point = {random.vector(0.7), random.vector(1.5)};
@@ -321,7 +323,7 @@ TEST(TriangleCollision, AgreesWithDenseSampling)
       }
     }
   }
-  EXPECT_GT(hits, 200);
+  EXPECT_GT(hits, how_many(200));
   EXPECT_EQ(agree, hits);
 }
 
@@ -473,14 +475,14 @@ TEST(CollisionEvents, KeepEnergyMomentumAndAngularMomentumOfAStep)
     Gas gas(mesh, 0.2, no_slip, n);
     gas.shake(0.1, random);
     const SurfaceSide where = gas.side();
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < how_many(3000); ++i) {
       gas.points.push_back({random.vector(1.3), random.normal(1.0)});
       gas.level.push_back(where.level(gas.points.back().origin));
     }
     const double e = gas.energy();
     const Vector3d p = gas.momentum(), l = gas.angular_momentum();
     for (int step = 0; step < 10; ++step) gas.stream(where);
-    EXPECT_GT(gas.collisions, 300);
+    EXPECT_GT(gas.collisions, how_many(300));
     EXPECT_NEAR(gas.energy() / e, 1.0, 1e-13);
     EXPECT_LT((gas.momentum() - p).norm(), 1e-11);
     EXPECT_LT((gas.angular_momentum() - l).norm(), 1e-11);
@@ -596,7 +598,7 @@ TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
     mesh.periodic = {true, true, true};
     for (Vector3d &x : mesh.points) x += Vector3d(0.2, -0.1, 3.0);
     Gas gas(mesh, 0.5, no_slip);
-    gas.fill(4000, 1.0, random);
+    gas.fill(how_many(4000), 1.0, random);
     gas.shake(0.3, random);
     const SurfaceSide where = gas.side();
     int leaks = 0;
@@ -614,7 +616,7 @@ TEST(CollisionEvents, NothingLeaksThroughAMovingVesicle)
       if (step % 20 == 19) leaks += gas.crossings();
     }
     EXPECT_EQ(leaks, 0);
-    EXPECT_GT(gas.collisions, 5000);
+    EXPECT_GT(gas.collisions, how_many(5000));
     EXPECT_LT(gas.lists, 250);    // in 300 steps, though vertices stray often
   }
 }
@@ -625,7 +627,7 @@ TEST(CollisionEvents, NothingLeaksThroughAFinerVesicle)
     Random random(8);
     const TriangleMesh mesh = icosphere(1, 1.0);
     Gas gas(mesh, 5.0, no_slip, 4);    // lighter, and triangles would turn over
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < how_many(2000); ++i) {
       gas.points.push_back({random.vector(1.2), random.normal(1.0)});
       gas.level.push_back(0);
     }
@@ -647,7 +649,7 @@ TEST(CollisionEvents, NothingLeaksThroughAFinerVesicle)
       if (step % 20 == 19) leaks += gas.crossings();
     }
     EXPECT_EQ(leaks, 0);
-    EXPECT_GT(gas.collisions, 1000);
+    EXPECT_GT(gas.collisions, how_many(1000));
   }
 }
 
@@ -672,7 +674,7 @@ TEST(SurfaceGrid, CubesKnowAllTrianglesWithinTheirReach)
     gas.grid.begin(gas.vertices, 0.0, 0.0);
     std::vector<int> found;
     int num_found = 0, missing = 0;
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < how_many(4000); ++i) {
       const Vector3d x = random.vector(1.8);
       ASSERT_TRUE(gas.grid.find(x, reach, found));
       num_found += found.size();
@@ -689,7 +691,7 @@ TEST(SurfaceGrid, CubesKnowAllTrianglesWithinTheirReach)
       }
     }
     EXPECT_EQ(missing, 0) << "cubes of " << spacing;
-    EXPECT_GT(num_found, 4000);
+    EXPECT_GT(num_found, how_many(4000));
     for (size_t v = 0; v < mesh.points.size(); ++v) gas.vertices[v].path.origin = mesh.points[v];
   }
 }
@@ -704,7 +706,7 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   const double dt = 0.01, kick = 0.05;
   Gas gas(mesh, 1.0);
   gas.thickness = 0.3;
-  for (int i = 0; i < 2000; ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
+  for (int i = 0; i < how_many(2000); ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
   gas.build({0.15, 0.1, 0.2});
   ApproachList list(0.02, 0.2);
   const TriangleCollision collision;
@@ -766,7 +768,7 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   }
   EXPECT_EQ(missed, 0);
   EXPECT_EQ(incomplete, 0);
-  EXPECT_GT(hits, 100);
+  EXPECT_GT(hits, how_many(100));
   EXPECT_LT(taken, 10 * 4 * hits);
   EXPECT_LT(listed, 0.3 * steps * gas.points.size());
   EXPECT_LT(lists, steps / 2);

@@ -1,4 +1,4 @@
-"""Bad input gets one LAMMPS error line that names the thing and the cure, on one rank and on two."""
+"""Bad input gets one LAMMPS error line that names the thing and the cure; what the mesh has, on one rank and on two."""
 # cost: 15
 
 import concurrent.futures
@@ -85,6 +85,7 @@ def coeff(words, shape="sphere 1 1.0"):
     return create(f"1 {shape}") + f"pair_style helfrich\npair_coeff {words}\nrun 0\n"
 
 
+# The mesh and the shape: each rank looks at its part
 CASES = [
     # === The mesh, from a data file
     (data("flipped"), "same direction: one of them is flipped"),
@@ -122,6 +123,33 @@ CASES = [
     (create("1 file mesh.xyz"), "unknown extension 'xyz'; a mesh file must be named *.off"),
     (create("1 file missing.off"), "missing.off: cannot be opened"),
 
+    # === Coefficients that do not go with the mesh
+    (coeff("2 2 10.0 0.0"), "is of a type without coefficients: add a pair_coeff line"),
+    (coeff("* * 10.0 0.0 volume 1.0 init", "plane 8 8"), "encloses no volume: remove volume and pressure"),
+    (coeff("* * 10.0 0.0 pressure 1.0", "cylinder 8 8 1.0 z"), "encloses no volume: remove volume and pressure"),
+    (create("1 sphere 1 1.0") + "set atom 1*5 type 2\npair_style helfrich\npair_coeff 1 1 10.0 0.0 area 1.0 init\n"
+     "pair_coeff 2 2 10.0 0.0\nrun 0\n", "Membrane 1 has control points of types with different area"),
+    (create("1 sphere 1 1.0") + "set atom 1*5 type 2\npair_style helfrich\n"
+     "pair_coeff 1 1 10.0 0.0 area/difference 1.0 init thickness 0.1\n"
+     "pair_coeff 2 2 10.0 0.0 area/difference 1.0 init thickness 0.2\nrun 0\n",
+     "Membrane 1 has control points of types with different area/difference coefficients"),
+
+    # === Shapes that cannot be, at the start and on the way
+    (create("1 sphere 0 3.0"), "create_membrane sphere: an edge spans half the periodic box in"),
+    (create("1 sphere 0 3.0 refine 2"), "create_membrane sphere: an edge spans half the periodic box in"),
+    (data("good", "change_box all x scale 0.55\n" + PAIR), "spans half the periodic box in x; use a larger box or a finer"),
+    (create("1 sphere 1 1.0") + "set group all x 0.0 y 0.0\n" + PAIR, "is not a finite number: control points"),
+    (create("1 sphere 1 1.0") + "set group all x 0.0 y 0.0 z 0.0\n" + PAIR, "is not a finite number: control points"),
+    (create("1 sphere 1 1.0") + "variable nan atom exp(1000)*0\nset atom 7 y v_nan\n" + PAIR,
+     "Control point 7 has a coordinate that is not a finite number"),
+    (create("1 sphere 1 1.0") + "set type 1 mass 0.0\n" + PAIR, "Invalid mass"),
+    (create("1 sphere 1 1.0") + PAIR + "fix 1 all nve\nvelocity all create 1.0 4711\ntimestep 10\nrun 50\n", "Lost atoms"),
+    (create("1 sphere 2 1.0", OPEN_BOX) + PAIR + "velocity all set 10 0 0\nfix 1 all nve\nthermo 10\ntimestep 0.001\n"
+     "run 500\n", "unless it left the box, which is not periodic"),
+]
+
+# Commands: all ranks read the same line, so these run on one
+COMMANDS = [
     # === atom_style
     ("atom_style membrane_cp triangles 1\n", "Unknown atom_style membrane_cp argument triangles; the only one is: faces"),
     ("atom_style membrane_cp faces\n", "the only one is: faces TYPES"),
@@ -171,7 +199,6 @@ CASES = [
     (create("1 sphere 1 1.0") + "pair_style helfrich quadrature\n", "missing argument"),
     (create("1 sphere 1 1.0") + "pair_style helfrich points 3\n", "Unknown pair_style helfrich keyword points"),
     (create("1 sphere 1 1.0") + "pair_style helfrich\nrun 0\n", "All pair coeffs are not set"),
-    (coeff("2 2 10.0 0.0"), "is of a type without coefficients: add a pair_coeff line"),
     (coeff("1 1 10.0"), "missing argument"),
     (coeff("1 2 10.0 0.0"), "so give the same type twice"),
     (coeff("3 3 10.0 0.0"), "Numeric index 3 is out of bounds (1-2)"),
@@ -190,27 +217,6 @@ CASES = [
     (coeff("1 1 10.0 0.0 area/difference 1.0 init thickness 0.0"),
      "pair_coeff helfrich area/difference thickness 0.0 must be positive"),
     (coeff("1 1 10.0 0.0 stiffness 1.0"), "Unknown pair_coeff helfrich keyword stiffness; known are: kg, tension"),
-    (coeff("* * 10.0 0.0 volume 1.0 init", "plane 8 8"), "encloses no volume: remove volume and pressure"),
-    (coeff("* * 10.0 0.0 pressure 1.0", "cylinder 8 8 1.0 z"), "encloses no volume: remove volume and pressure"),
-    (create("1 sphere 1 1.0") + "set atom 1*5 type 2\npair_style helfrich\npair_coeff 1 1 10.0 0.0 area 1.0 init\n"
-     "pair_coeff 2 2 10.0 0.0\nrun 0\n", "Membrane 1 has control points of types with different area"),
-    (create("1 sphere 1 1.0") + "set atom 1*5 type 2\npair_style helfrich\n"
-     "pair_coeff 1 1 10.0 0.0 area/difference 1.0 init thickness 0.1\n"
-     "pair_coeff 2 2 10.0 0.0 area/difference 1.0 init thickness 0.2\nrun 0\n",
-     "Membrane 1 has control points of types with different area/difference coefficients"),
-
-    # === Shapes that cannot be, at the start and on the way
-    (create("1 sphere 0 3.0"), "create_membrane sphere: an edge spans half the periodic box in"),
-    (create("1 sphere 0 3.0 refine 2"), "create_membrane sphere: an edge spans half the periodic box in"),
-    (data("good", "change_box all x scale 0.55\n" + PAIR), "spans half the periodic box in x; use a larger box or a finer"),
-    (create("1 sphere 1 1.0") + "set group all x 0.0 y 0.0\n" + PAIR, "is not a finite number: control points"),
-    (create("1 sphere 1 1.0") + "set group all x 0.0 y 0.0 z 0.0\n" + PAIR, "is not a finite number: control points"),
-    (create("1 sphere 1 1.0") + "variable nan atom exp(1000)*0\nset atom 7 y v_nan\n" + PAIR,
-     "Control point 7 has a coordinate that is not a finite number"),
-    (create("1 sphere 1 1.0") + "set type 1 mass 0.0\n" + PAIR, "Invalid mass"),
-    (create("1 sphere 1 1.0") + PAIR + "fix 1 all nve\nvelocity all create 1.0 4711\ntimestep 10\nrun 50\n", "Lost atoms"),
-    (create("1 sphere 2 1.0", OPEN_BOX) + PAIR + "velocity all set 10 0 0\nfix 1 all nve\nthermo 10\ntimestep 0.001\n"
-     "run 500\n", "unless it left the box, which is not periodic"),
 ]
 
 # a membrane that grows: its stencils reach beyond the ghosts of a rank
@@ -250,8 +256,9 @@ def check(number, ranks, script, fragment):
 
 write_meshes()
 ranks = (1, 2) if MPIEXEC else (1,)
-tasks = [(number, n, *case) for number, case in enumerate(CASES) for n in ranks]
-tasks += [(len(CASES), 2, *GROWTH)] * bool(MPIEXEC)
+tasks = [(n, *case) for case in CASES for n in ranks] + [(1, *case) for case in COMMANDS]
+tasks += [(2, *GROWTH)] * bool(MPIEXEC)
+tasks = [(number, *task) for number, task in enumerate(tasks)]
 with concurrent.futures.ThreadPoolExecutor(2) as pool:
     for (number, n, _, fragment), (good, lines) in zip(tasks, pool.map(lambda task: check(*task), tasks)):
         claim(f"{n} rank(s):", good, lines[0] if good else f"expected: {fragment}; got: " + " | ".join(lines))
