@@ -19,17 +19,23 @@
 
 namespace Membrane_TEST {
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool SANITIZED = true;
+#else
+constexpr bool SANITIZED = false;
+#endif
+
 /// How many samples a test takes: `number`, an eighth of them under the sanitizers, which are slow
 /// and look at the ways through the code, `in_a_long_run` with MEMBRANE_LONG.
 inline int how_many(int number, int in_a_long_run = 0)
 {
   if (in_a_long_run && std::getenv("MEMBRANE_LONG")) return in_a_long_run;
-#if defined(__SANITIZE_ADDRESS__)
-  return std::max(1, number / 8);
-#else
-  return number;
-#endif
+  return SANITIZED ? std::max(1, number / 8) : number;
 }
+
+/// The step of a loop over valences and other kinds that are slow: all of them, under the sanitizers
+/// one in five.
+constexpr int STRIDE = SANITIZED ? 5 : 1;
 
 }    // namespace Membrane_TEST
 

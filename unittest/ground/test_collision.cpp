@@ -31,6 +31,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -475,7 +476,7 @@ TEST(CollisionEvents, KeepEnergyMomentumAndAngularMomentumOfAStep)
     Gas gas(mesh, 0.2, no_slip, n);
     gas.shake(0.1, random);
     const SurfaceSide where = gas.side();
-    for (int i = 0; i < how_many(3000); ++i) {
+    for (int i = 0; i < std::max(how_many(3000), 600); ++i) {
       gas.points.push_back({random.vector(1.3), random.normal(1.0)});
       gas.level.push_back(where.level(gas.points.back().origin));
     }
@@ -706,7 +707,8 @@ TEST(ApproachList, WhoIsNotListedMeetsNothing)
   const double dt = 0.01, kick = 0.05;
   Gas gas(mesh, 1.0);
   gas.thickness = 0.3;
-  for (int i = 0; i < how_many(2000); ++i) gas.points.push_back({random.vector(1.3), random.normal(1.0)});
+  for (int i = 0; i < std::max(how_many(2000), 500); ++i)
+    gas.points.push_back({random.vector(1.3), random.normal(1.0)});
   gas.build({0.15, 0.1, 0.2});
   ApproachList list(0.02, 0.2);
   const TriangleCollision collision;

@@ -255,7 +255,8 @@ TEST(PatchRules, ArePartitionsOfUnityWithDerivativesOfTheOrderOfAnEdge)
 TEST(PatchRules, CarefulIntegratesAFlatFaceExactlyForEveryValence)
 {
   double worst = 0.0;
-  for (const auto &[n, points, exact] : samples()) {
+  for (size_t i = 0; i < samples().size(); i += STRIDE) {
+    const auto &[n, points, exact] = samples()[i];
     const Flat rule = by_rule(shared_rules(Quadrature::CAREFUL).get(n), points);
     const double error =
         std::max(std::fabs(rule.area - exact.area), std::fabs(rule.moment - exact.moment));

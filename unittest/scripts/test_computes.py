@@ -1,5 +1,6 @@
 """compute membrane/shape and compute membrane/curvature/atom measure the limit surface."""
 # cost: 20
+# processors: 2
 
 import math
 import os
