@@ -28,7 +28,8 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), surface(std::make_shared<DistributedMesh>(lmp))
+    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(nullptr),
+    surface(std::make_shared<DistributedMesh>(lmp))
 {
   mass_type = PER_ATOM;
   atom->rmass_flag = 1;
@@ -36,6 +37,13 @@ AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
   for (auto *fields : {&fields_grow, &fields_copy, &fields_border, &fields_border_vel,
                        &fields_exchange, &fields_restart, &fields_create})
     fields->emplace_back("rmass");
+
+  // unlike masses, origins of ghost atoms are of no use
+
+  atom->add_peratom("membrane_origin", &origin, Atom::BIGINT, 0);
+  for (auto *fields :
+       {&fields_grow, &fields_copy, &fields_exchange, &fields_restart, &fields_create})
+    fields->emplace_back("membrane_origin");
   fields_data_atom = {"id", "molecule", "type", "rmass", "x"};
 
   setup_fields();
@@ -68,6 +76,7 @@ void AtomVecMembraneCP::create_atom_post(int ilocal)
 void AtomVecMembraneCP::data_atom_post(int ilocal)
 {
   AtomVecAngle::data_atom_post(ilocal);
+  origin[ilocal] = 0;
   if (!(rmass[ilocal] > 0.0) || !std::isfinite(rmass[ilocal]))
     error->one(FLERR,
                "Atom {} in the Atoms section of the data file has mass {}; columns are: "

@@ -35,9 +35,11 @@ class AtomVecMembraneCP : public AtomVecAngle, public MeshOwner {
   void create_atom_post(int) override;
   void data_atom_post(int) override;
   const std::shared_ptr<DistributedMesh> &mesh() override { return surface; }
+  bigint *origins() override { return origin; }
 
  private:
   double *rmass;
+  bigint *origin;
   std::shared_ptr<DistributedMesh> surface;
 };
 

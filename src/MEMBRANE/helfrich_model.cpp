@@ -35,7 +35,7 @@ using Membrane_NS::Quadrature;
 // of the bending energy and of kc: beyond it a warning at the end of a run
 static constexpr double MOST_QUADRATURE_ERROR = 0.1;
 
-static constexpr int RESTART_VERSION = 1;
+static constexpr int RESTART_VERSION = 2;
 
 /* ----------------------------------------------------------------------
    a new term: one file that defines it, and one line here. In this order they act
@@ -159,11 +159,18 @@ void HelfrichModel::choose()
     needs.volume = needs.volume || more.volume;
     needs.curvature = needs.curvature || more.curvature;
     needs.gauss = needs.gauss || more.gauss;
+    needs.origins = needs.origins || more.origins;
   }
 
   membrane_volume.assign(nmembranes, 0);
   for (int m = 0; m < nmembranes; ++m)
     if (!scene.excluded[m]) check_membrane(m);
+
+  std::vector<char> anew(nmembranes, 0);
+  for (int m = 0; m < nmembranes; ++m)
+    for (int t : scene.types[m]) anew[m] = anew[m] || fresh[t];
+  if (needs.origins) scene.origins.give(*scene.mesh);
+  for (HelfrichTerm *term : present) term->find_references(scene, anew);
   std::fill(fresh.begin(), fresh.end(), 0);
   restored = false;
 
@@ -202,7 +209,6 @@ void HelfrichModel::check_membrane(int m)
   const int first = scene.types[m].front();
   for (int t : scene.types[m])
     for (auto &term : terms) {
-      if (fresh[t]) term->drop_reference(molecule);
       if (term->of_whole_membrane() && !term->same(first, t))
         error->all(FLERR,
                    "Membrane {} has control points of types with different {} coefficients; these "
@@ -419,6 +425,7 @@ void HelfrichModel::archive_settings(RestartArchive &file)
                version, RESTART_VERSION);
   file(which);
   if (file.is_reading()) set_quadrature(static_cast<Quadrature>(which));
+  scene.origins.archive(file);
   archive_terms(file, terms, error,
                 [](HelfrichTerm &term, RestartArchive &part) { term.archive_references(part); });
   if (!file.ok()) error->all(FLERR, "The restart file is damaged: settings of pair style helfrich");

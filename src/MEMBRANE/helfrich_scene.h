@@ -16,6 +16,7 @@
 
 #include "membrane_helfrich.h"
 #include "mesh_local.h"
+#include "mesh_origins.h"
 #include "mesh_totals.h"
 
 #include <vector>
@@ -33,12 +34,13 @@ struct Conjugates {
     integrals and energies in a step. HelfrichModel owns it and keeps it up to date. */
 struct HelfrichScene {
   explicit HelfrichScene(class LAMMPS *lmp) :
-      mesh(lmp, "Pair style helfrich"), totals(lmp, mesh)
+      mesh(lmp, "Pair style helfrich"), totals(lmp, mesh), origins(lmp)
   {
   }
 
   LocalMesh mesh;
   MeshTotals totals;
+  MeshOrigins origins;    ///< up to date if a term keeps references
 
   // === Membranes, in the order of DistributedMesh::molecules(); the same on all ranks
 

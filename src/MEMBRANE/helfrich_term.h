@@ -82,8 +82,6 @@ class HelfrichTerm : protected Pointers {
 
   virtual bool of_whole_membrane() const { return false; }
   virtual bool same(int /*type*/, int /*other*/) const { return true; }
-  /// What "init" stood for a membrane is to be taken anew.
-  virtual void drop_reference(tagint /*molecule*/) {}
   virtual void archive_references(RestartArchive &) {}
 
   // === What the evaluation needs for it
@@ -93,6 +91,7 @@ class HelfrichTerm : protected Pointers {
     bool volume = false;       ///< and volume
     bool curvature = false;    ///< and integral of 2H
     bool gauss = false;        ///< the integral of K
+    bool origins = false;      ///< which membranes are those of an earlier run
   };
   virtual Needs needs() const { return {}; }
 
@@ -100,9 +99,11 @@ class HelfrichTerm : protected Pointers {
 
   /// Before a run, and when faces changed: call before present() and acts_on().
   virtual void choose(const HelfrichScene &) {}
+  /// Then finds what it has kept of these membranes, but not of those with `anew`; collective.
+  virtual void find_references(const HelfrichScene &, const std::vector<char> & /*anew*/) {}
   /// Local coefficients, after atoms changed ranks: those of the model that this term owns.
   virtual void localize(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) {}
-  /// After the first pass: references; collective.
+  /// After the first pass: takes references that were not found; collective.
   virtual void take_references(HelfrichScene &) {}
   /// Then adds its derivatives by totals to the scene's conjugates,
   virtual void act_on_membranes(HelfrichScene &) {}

@@ -31,7 +31,7 @@ class AreaTerm : public TermWithTarget<TargetCoefficients> {
   Needs needs() const override
   {
     Needs needs;
-    needs.totals = true;
+    needs.totals = needs.origins = true;
     return needs;
   }
 
@@ -49,10 +49,10 @@ class AreaTerm : public TermWithTarget<TargetCoefficients> {
   {
     return total.area;
   }
-  double law(const TargetCoefficients &c, tagint molecule, const MeshTotals::Total &total,
+  double law(const TargetCoefficients &c, int m, const MeshTotals::Total &total,
              Conjugates &slope) const override
   {
-    const double d = excess(c, molecule, total), a0 = target(molecule);
+    const double d = excess(c, m, total), a0 = target(m);
     slope.tension = c.modulus * d / a0;
     return 0.5 * c.modulus * d * d / a0;
   }

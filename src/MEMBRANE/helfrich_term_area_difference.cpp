@@ -39,7 +39,8 @@ struct Coefficients : TargetCoefficients {
 
 /** Area difference elasticity [L. Miao, U. Seifert, M. Wortis and H.-G. Doebereiner, Phys. Rev. E 49,
     5389 (1994)]: KD/2 (DA - DA0)^2/(A D^2) for each membrane, with the difference DA = D M between the
-    areas of two surfaces a distance D apart, M the integral of 2H. */
+    areas of two surfaces a distance D apart, M the integral of 2H. So it is KD/2 (M - M0)^2/A, and targets
+    are kept as M0 = DA0/D. */
 class AreaDifferenceTerm : public TermWithTarget<Coefficients> {
  public:
   explicit AreaDifferenceTerm(LAMMPS *lmp) :
@@ -50,7 +51,7 @@ class AreaDifferenceTerm : public TermWithTarget<Coefficients> {
   Needs needs() const override
   {
     Needs needs;
-    needs.totals = true;
+    needs.totals = needs.origins = true;
     needs.curvature = true;
     return needs;
   }
@@ -67,19 +68,20 @@ class AreaDifferenceTerm : public TermWithTarget<Coefficients> {
     if (!(c.thickness > 0.0))
       error->all(FLERR, "pair_coeff helfrich area/difference thickness {} must be positive",
                  words.word(4));
+    c.target /= c.thickness;
     return 5;
   }
-  double compared(const Coefficients &c, const MeshTotals::Total &total) const override
+  double compared(const Coefficients &, const MeshTotals::Total &total) const override
   {
-    return c.thickness * total.curvature;
+    return total.curvature;
   }
 
-  // dE/dM = KD (DA - DA0)/(A D), dE/dA = -E/A
+  // dE/dM = KD (M - M0)/A, dE/dA = -E/A
 
-  double law(const Coefficients &c, tagint molecule, const MeshTotals::Total &total,
+  double law(const Coefficients &c, int m, const MeshTotals::Total &total,
              Conjugates &slope) const override
   {
-    const double strain = excess(c, molecule, total) / c.thickness;
+    const double strain = excess(c, m, total);
     const double energy = 0.5 * c.modulus * strain * strain / total.area;
     slope.moment = c.modulus * strain / total.area;
     slope.tension = -energy / total.area;

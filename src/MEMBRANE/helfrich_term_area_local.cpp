@@ -20,7 +20,8 @@
 #include "atom.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using Membrane_NS::FaceGroup;
@@ -35,8 +36,20 @@ struct Coefficients {
   void archive(RestartArchive &file) { file(modulus); }
 };
 
-/** KL/2 (a - a0)^2/a0 for each face; a0 is its area at the first step. These references are kept by
-    membrane, for its faces in the order of the mesh. */
+/// A face by the origins of its corners, increasing, and its area at the first step.
+struct KeptArea {
+  std::array<bigint, 3> corners;
+  double area;
+
+  bool operator<(const KeptArea &o) const { return corners < o.corners; }
+  void archive(RestartArchive &file)
+  {
+    for (bigint &corner : corners) file(corner);
+    file(area);
+  }
+};
+
+/// KL/2 (a - a0)^2/a0 for each face; a0 is its area at the first step.
 class LocalAreaTerm : public TermWith<Coefficients> {
  public:
   explicit LocalAreaTerm(LAMMPS *lmp) : TermWith(lmp, "area/local", HelfrichOutput::AREA) {}
@@ -49,13 +62,12 @@ class LocalAreaTerm : public TermWith<Coefficients> {
   Needs needs() const override
   {
     Needs needs;
-    needs.totals = true;
+    needs.totals = needs.origins = true;
     return needs;
   }
 
-  void drop_reference(tagint molecule) override { kept.erase(molecule); }
   void archive_references(RestartArchive &file) override { file(kept); }
-  void choose(const HelfrichScene &scene) override;
+  void find_references(const HelfrichScene &, const std::vector<char> &anew) override;
   void localize(const std::vector<FaceGroup> &, FaceModel &) override;
   void take_references(HelfrichScene &) override;
   void act_on_faces(HelfrichScene &) override;
@@ -69,17 +81,79 @@ class LocalAreaTerm : public TermWith<Coefficients> {
   }
 
  private:
-  std::map<tagint, std::vector<double>> kept;    // by molecule ID
-  std::vector<double> reference;                 // by face of the mesh; empty until it is taken
-  std::vector<double> modulus;                   // by slot
+  std::vector<KeptArea> kept;        // increasing
+  std::vector<double> reference;     // by face of the mesh; 0 until it is taken
+  std::vector<double> modulus;       // by slot
+  bool complete = false;             // all references are taken
+
+  int membrane_of(const HelfrichScene &, int face) const;
+  bool acts_on_face(const HelfrichScene &, int face) const;
+  void keep(const HelfrichScene &);
 };
 
 /* ---------------------------------------------------------------------- */
 
-void LocalAreaTerm::choose(const HelfrichScene &)
+int LocalAreaTerm::membrane_of(const HelfrichScene &scene, int face) const
 {
-  reference.clear();
+  const auto &topology = scene.mesh->topology();
+  return scene.mesh->membrane(topology.component(topology.face(face)[0]));
 }
+
+bool LocalAreaTerm::acts_on_face(const HelfrichScene &scene, int face) const
+{
+  const int m = membrane_of(scene, face);
+  return !scene.excluded[m] && acts_on(scene.types[m].front());
+}
+
+static std::array<bigint, 3> corners_of(const Membrane_NS::Face &face,
+                                        const std::vector<bigint> &origins)
+{
+  std::array<bigint, 3> corners = {origins[face[0]], origins[face[1]], origins[face[2]]};
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LocalAreaTerm::find_references(const HelfrichScene &scene, const std::vector<char> &anew)
+{
+  const auto &topology = scene.mesh->topology();
+  reference.assign(topology.num_faces(), 0.0);
+  complete = true;
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    if (!acts_on_face(scene, f)) continue;
+    const KeptArea wanted = {corners_of(topology.face(f), scene.origins.before()), 0.0};
+    const auto found = std::lower_bound(kept.begin(), kept.end(), wanted);
+    if (!anew[membrane_of(scene, f)] && found != kept.end() && found->corners == wanted.corners)
+      reference[f] = found->area;
+    else
+      complete = false;
+  }
+  keep(scene);
+}
+
+// of faces that this term does not act on now, what was kept remains, as long as they exist
+
+void LocalAreaTerm::keep(const HelfrichScene &scene)
+{
+  const auto &topology = scene.mesh->topology();
+  std::vector<KeptArea> now, others;
+  for (int f = 0; f < topology.num_faces(); ++f)
+    if (acts_on_face(scene, f))
+      now.push_back({corners_of(topology.face(f), scene.origins.now()), reference[f]});
+  std::sort(now.begin(), now.end());
+  for (const KeptArea &entry : kept) {
+    const bool exists = std::all_of(entry.corners.begin(), entry.corners.end(),
+                                    [&](bigint corner) { return scene.origins.exists(corner); });
+    if (exists && !std::binary_search(now.begin(), now.end(), entry)) others.push_back(entry);
+  }
+  now.erase(std::remove_if(now.begin(), now.end(), [](const KeptArea &k) { return k.area == 0.0; }),
+            now.end());
+  kept.clear();
+  std::merge(now.begin(), now.end(), others.begin(), others.end(), std::back_inserter(kept));
+}
+
+/* ---------------------------------------------------------------------- */
 
 void LocalAreaTerm::localize(const std::vector<FaceGroup> &groups, FaceModel &)
 {
@@ -91,37 +165,16 @@ void LocalAreaTerm::localize(const std::vector<FaceGroup> &groups, FaceModel &)
 
 void LocalAreaTerm::take_references(HelfrichScene &scene)
 {
-  if (!reference.empty()) return;
-  const DistributedMesh &mesh = *scene.mesh;
-  const auto &topology = mesh.topology();
-  const int nfaces = topology.num_faces();
-
-  std::vector<std::vector<int>> faces(scene.types.size());    // of each membrane that has the term
-  for (int f = 0; f < nfaces; ++f) {
-    const int m = mesh.membrane(topology.component(topology.face(f)[0]));
-    if (!scene.excluded[m] && acts_on(scene.types[m].front())) faces[m].push_back(f);
-  }
-  bool missing = false;
-  for (size_t m = 0; m < faces.size(); ++m)
-    if (!faces[m].empty()) missing = missing || kept[mesh.molecules()[m]].size() != faces[m].size();
-
-  reference.assign(nfaces, 0.0);
-  if (missing) {
-    std::vector<double> mine(nfaces, 0.0);
-    for (const FaceGroup &group : scene.groups)
-      for (int s = 0; s < group.nfaces; ++s)
-        mine[group.face[s]] = scene.integrals.area[group.first_slot + s];
-    MPI_Allreduce(mine.data(), reference.data(), nfaces, MPI_DOUBLE, MPI_SUM, world);
-  }
-  for (size_t m = 0; m < faces.size(); ++m) {
-    if (faces[m].empty()) continue;
-    std::vector<double> &areas = kept[mesh.molecules()[m]];
-    if (areas.size() != faces[m].size()) {
-      areas.clear();
-      for (int f : faces[m]) areas.push_back(reference[f]);
-    }
-    for (size_t i = 0; i < areas.size(); ++i) reference[faces[m][i]] = areas[i];
-  }
+  if (complete) return;
+  complete = true;
+  std::vector<double> mine(reference.size(), 0.0), all(reference.size());
+  for (const FaceGroup &group : scene.groups)
+    for (int s = 0; s < group.nfaces; ++s)
+      mine[group.face[s]] = scene.integrals.area[group.first_slot + s];
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, world);
+  for (size_t f = 0; f < all.size(); ++f)
+    if (reference[f] == 0.0 && acts_on_face(scene, f)) reference[f] = all[f];
+  keep(scene);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -16,7 +16,9 @@
 
 #include "helfrich_term.h"
 
+#include <algorithm>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -38,7 +40,7 @@ template <class Coefficients> class TermOfTotals : public TermWith<Coefficients>
       if (!c) continue;
       const MeshTotals::Total &total = scene.totals.membranes()[m];
       Conjugates slope;
-      density[m] = law(*c, scene.mesh->molecules()[m], total, slope) / total.area;
+      density[m] = law(*c, m, total, slope) / total.area;
       scene.conjugates[m].tension += slope.tension;
       scene.conjugates[m].pressure += slope.pressure;
       scene.conjugates[m].moment += slope.moment;
@@ -57,8 +59,8 @@ template <class Coefficients> class TermOfTotals : public TermWith<Coefficients>
  protected:
   using TermWith<Coefficients>::by_type;
 
-  /// The energy, and its derivatives by the totals.
-  virtual double law(const Coefficients &, tagint molecule, const MeshTotals::Total &,
+  /// The energy of membrane m, and its derivatives by the totals.
+  virtual double law(const Coefficients &, int m, const MeshTotals::Total &,
                      Conjugates &) const = 0;
 
   /// A membrane's coefficients, or null where it has none.
@@ -91,37 +93,94 @@ struct TargetCoefficients {
   }
 };
 
-/// Keeps such a target for each membrane, by molecule ID, through later runs and restarts
+/// What "init" stood for, of a membrane of so many control points.
+struct KeptTarget {
+  double target;
+  int points;
+  void archive(RestartArchive &file)
+  {
+    file(target);
+    file(points);
+  }
+};
+
+/** Keeps what "init" stood for through later runs and restarts, by the lowest origin of a membrane's control
+    points. A sheet that replicate made k times larger has k times the target. */
 template <class Coefficients> class TermWithTarget : public TermOfTotals<Coefficients> {
  public:
   using TermOfTotals<Coefficients>::TermOfTotals;
 
-  void drop_reference(tagint molecule) override { targets.erase(molecule); }
-  void archive_references(RestartArchive &file) override { file(targets); }
+  void archive_references(RestartArchive &file) override { file(kept); }
+
+  void find_references(const HelfrichScene &scene, const std::vector<char> &anew) override
+  {
+    const int n = static_cast<int>(scene.types.size());
+    targets.assign(n, 0.0);
+    known.assign(n, 0);
+    lowest.assign(n, 0);
+    points.assign(n, 0);
+    const auto before = origins_by_membrane(scene, scene.origins.before());
+    const auto now = origins_by_membrane(scene, scene.origins.now());
+    std::map<bigint, KeptTarget> still;
+    for (auto &[origin, entry] : kept)
+      if (scene.origins.exists(origin)) still[origin] = entry;
+    for (int m = 0; m < n; ++m) {
+      const Coefficients *c = this->of_membrane(scene, m);
+      if (!c) continue;
+      lowest[m] = now[m].front();
+      points[m] = static_cast<int>(now[m].size());
+      still.erase(lowest[m]);
+      known[m] = !c->init;
+      targets[m] = c->target;
+      if (known[m] || anew[m]) continue;
+      const auto distinct = std::set<bigint>(before[m].begin(), before[m].end()).size();
+      const auto found = kept.find(before[m].front());
+      if (found == kept.end() || distinct != (size_t) found->second.points || points[m] % distinct)
+        continue;
+      known[m] = 1;
+      targets[m] = found->second.target * (points[m] / distinct);
+      still[lowest[m]] = {targets[m], points[m]};
+    }
+    kept = std::move(still);
+  }
+
   void take_references(HelfrichScene &scene) override
   {
     for (size_t m = 0; m < scene.types.size(); ++m) {
       const Coefficients *c = this->of_membrane(scene, m);
-      if (!c) continue;
-      const tagint molecule = scene.mesh->molecules()[m];
-      if (!c->init)
-        targets[molecule] = c->target;
-      else if (!targets.count(molecule))
-        targets[molecule] = compared(*c, scene.totals.membranes()[m]);
+      if (!c || known[m]) continue;
+      known[m] = 1;
+      targets[m] = compared(*c, scene.totals.membranes()[m]);
+      kept[lowest[m]] = {targets[m], points[m]};
     }
   }
 
  protected:
   /// What the target is compared with.
   virtual double compared(const Coefficients &, const MeshTotals::Total &) const = 0;
-  double target(tagint molecule) const { return targets.at(molecule); }
-  double excess(const Coefficients &c, tagint molecule, const MeshTotals::Total &total) const
+  double target(int m) const { return targets[m]; }
+  double excess(const Coefficients &c, int m, const MeshTotals::Total &total) const
   {
-    return compared(c, total) - target(molecule);
+    return compared(c, total) - targets[m];
   }
 
  private:
-  std::map<tagint, double> targets;
+  std::map<bigint, KeptTarget> kept;
+  std::vector<double> targets;    // by membrane
+  std::vector<char> known;        // and whether it is taken
+  std::vector<bigint> lowest;     // origin
+  std::vector<int> points;
+
+  /// Increasing.
+  static std::vector<std::vector<bigint>> origins_by_membrane(const HelfrichScene &scene,
+                                                              const std::vector<bigint> &origins)
+  {
+    std::vector<std::vector<bigint>> result(scene.types.size());
+    for (size_t v = 0; v < origins.size(); ++v)
+      result[scene.mesh->membrane(scene.mesh->topology().component(v))].push_back(origins[v]);
+    for (auto &list : result) std::sort(list.begin(), list.end());
+    return result;
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -31,7 +31,7 @@ class VolumeTerm : public TermWithTarget<TargetCoefficients> {
   Needs needs() const override
   {
     Needs needs;
-    needs.totals = true;
+    needs.totals = needs.origins = true;
     needs.volume = true;
     return needs;
   }
@@ -50,10 +50,10 @@ class VolumeTerm : public TermWithTarget<TargetCoefficients> {
   {
     return total.volume;
   }
-  double law(const TargetCoefficients &c, tagint molecule, const MeshTotals::Total &total,
+  double law(const TargetCoefficients &c, int m, const MeshTotals::Total &total,
              Conjugates &slope) const override
   {
-    const double d = excess(c, molecule, total), v0 = target(molecule);
+    const double d = excess(c, m, total), v0 = target(m);
     slope.pressure = c.modulus * d / v0;
     return 0.5 * c.modulus * d * d / v0;
   }

@@ -102,6 +102,8 @@ class MeshOwner {
  public:
   virtual ~MeshOwner() noexcept(false) = default;
   virtual const std::shared_ptr<DistributedMesh> &mesh() = 0;
+  /// By owned atom: see MeshOrigins, which alone reads and writes them.
+  virtual bigint *origins() = 0;
 };
 
 }    // namespace LAMMPS_NS

@@ -55,6 +55,11 @@ class RestartArchive {
     position += sizeof(T);
   }
 
+  /// A struct that says itself what is stored of it
+  template <class T, std::enable_if_t<std::is_class_v<T>, int> = 0> void operator()(T &value)
+  {
+    value.archive(*this);
+  }
   void operator()(std::string &value)
   {
     for (size_t i = 0, n = size_of(value); i < n; ++i) (*this)(value[i]);

@@ -73,6 +73,70 @@ for ranks in RANKS:
             if "dump" in style:
                 claim("   ... and draws", len(glob.glob("d.*.ppm")) >= 2, glob.glob("d.*.ppm"))
 
+# === What "init" stands for: the shape at the first run of these control points, whatever commands renumber
+
+TERMS = """
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0 area 30 init volume 20 init area/difference 5 init thickness 0.1 area/local 40
+"""
+SHEET_TERMS = """
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0 area 30 init area/difference 5 init thickness 0.1 area/local 40
+"""
+SHEET = START.replace(VESICLE, "create_membrane 1 plane 8 8 mass 50\n")
+TWO = START + "create_membrane 1 sphere 2 1.0 center 0 0 9 mass 50\n"
+SHAKE = "displace_atoms all random 0.05 0.05 0.05 77\n"
+RENUMBER = {
+    "reset_atoms id": "reset_atoms id",
+    "reset_atoms id sort yes": "reset_atoms id sort yes",
+    "set mol": "set group all mol 7",
+    "reset_timestep": "reset_timestep 0",
+    "balance": "balance 1.0 shift xyz 5 1.05",
+    "change_box": "change_box all x final -4 4 y final -4 4 units box",
+    "write_restart": "write_restart s.restart\nclear\nread_restart s.restart\nthermo_style custom step pe\n"
+                     "thermo_modify norm no format float %24.17g",
+    "pair_style of another kind": "pair_style zero 1.0\npair_coeff * *\nrun 0\n" + TERMS,
+}
+for ranks in RANKS:
+    for what, (start, terms) in {"sphere": (START, TERMS), "plane": (SHEET, SHEET_TERMS)}.items():
+        head = start + terms + OUTPUT.format("") + "run 0\n" + SHAKE + "run 0\n"
+        expected = {name: (command, lambda E, NEW: E) for name, command in RENUMBER.items()
+                    if not (what == "plane" and name in ("change_box", "pair_style of another kind"))}
+        if what == "sphere":
+            expected["pair_style of another kind"] = (RENUMBER["pair_style of another kind"], None)
+            expected["delete_atoms, create_membrane"] = ("delete_atoms group all bond no\n" + VESICLE,
+                                                         lambda E, NEW: NEW)
+        across = " bond/periodic\nset group all mol 1" if what == "plane" else ""
+        expected["replicate"] = (f"replicate 2 1 1{across}", lambda E, NEW: 2 * E)
+        expected["replicate twice"] = (f"replicate 2 1 1{across}\nrun 0\nreset_atoms id sort yes\n"
+                                       f"replicate 1 2 1{across}", lambda E, NEW: 4 * E)
+        expected["pair_coeff again"] = (terms.strip().splitlines()[1], None)
+        for name, (command, energy) in expected.items():
+            rows = rows_of(head + command + "\nrun 0\nrun 0\n", ranks=ranks)
+            if claim(f"init of a {what} on {ranks}, {name}: runs on", len(rows) >= 4):
+                E, NEW, found, again = rows[1]["PotEng"], rows[0]["PotEng"], rows[-2]["PotEng"], rows[-1]["PotEng"]
+                if energy:
+                    claim("   ... with the references that it should have", abs(found - energy(E, NEW)) <= 1e-10 * E,
+                          (found, energy(E, NEW)))
+                else:
+                    claim("   ... and takes the present shape", found < E - 0.01, (found, E))
+                claim("   ... also in the run after", abs(found - again) <= 1e-12 * E, (found, again))
+    rows = rows_of(TWO + TERMS + OUTPUT.format("") + "run 0\n" + SHAKE + "run 0\n" +
+                   "group one molecule 1\ndelete_atoms group one\nreset_atoms id sort yes\nset group all mol 1\nrun 0\n" +
+                   "replicate 1 1 2\nrun 0\n", ranks=ranks)
+    alone = rows_of(TWO + TERMS + OUTPUT.format("") + "run 0\n" + SHAKE + "group two molecule 2\n"
+                    "delete_atoms group two\nrun 0\n", ranks=ranks)
+    if claim(f"init on {ranks}: runs on when the first of two is deleted, renumbered and replicated",
+             len(rows) == 4 and len(alone) == 2):
+        first = alone[1]["PotEng"]
+        claim("   ... the second keeps its reference", abs(rows[1]["PotEng"] - first - rows[2]["PotEng"]) < 1e-9,
+              (rows[1]["PotEng"], first, rows[2]["PotEng"]))
+        claim("   ... and so do its copies", abs(rows[3]["PotEng"] - 2 * rows[2]["PotEng"]) < 1e-9)
+
+    error = error_of(START + TERMS + "run 0\nreset_atoms mol all single yes\nrun 0\n", ranks=ranks)
+    claim(f"reset_atoms mol on {ranks}, which looks at bonds only, takes membranes apart, and it is said",
+          "joins membranes" in error, error)
+
 # === Solvent
 
 SOLVENT = """
