@@ -53,7 +53,8 @@ static constexpr int FACES_EVERY = 10;
 /* ---------------------------------------------------------------------- */
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style), most_drift(0.0),
+    Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
+    noise_steps(0), most_drift(0.0),
     moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0),
     watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
 {
@@ -236,14 +237,14 @@ void FixHDBase::drift(double step)
 void FixHDBase::relax(double keep, double kT, bigint seed)
 {
   mass.part().load(atom->v, velocity);
-  mass.matrix().relax(keep, kT, seed, update->ntimestep, velocity);
+  mass.matrix().relax(keep, kT, seed, noise_steps++, velocity);
   mass.part().store(velocity, atom->v);
 }
 
 void FixHDBase::relax(const std::vector<double> &keep, double kT, bigint seed)
 {
   mass.part().load(atom->v, velocity);
-  mass.matrix().relax(keep, kT, seed, update->ntimestep, velocity);
+  mass.matrix().relax(keep, kT, seed, noise_steps++, velocity);
   mass.part().store(velocity, atom->v);
 }
 
@@ -302,6 +303,31 @@ std::string FixHDBase::shape_lost_at(tagint id_of_point)
       "{:.3g}; keep it with regularize in pair_coeff",
       std::sqrt(shortest), std::sqrt(longest));
 }
+
+// === Restart
+
+void FixHDBase::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  RestartArchive file;
+  archive(file);
+  const int length = static_cast<int>(file.bytes().size()), size = length + sizeof(int);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&length, sizeof(int), 1, fp);
+  fwrite(file.bytes().data(), 1, length, fp);
+}
+
+void FixHDBase::restart(char *buf)
+{
+  int length;
+  memcpy(&length, buf, sizeof(int));
+  RestartArchive file(std::string(buf + sizeof(int), length));
+  archive(file);
+  if (!file.ok() || !file.at_end())
+    error->all(FLERR, "The restart file is damaged, or of another version: fix {} ({})", id, style);
+}
+
+/* ---------------------------------------------------------------------- */
 
 double FixHDBase::memory_usage()
 {

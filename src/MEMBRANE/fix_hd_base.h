@@ -17,6 +17,8 @@
 #include "fix.h"
 #include "hd_mass.h"
 
+#include "restart_archive.h"
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,6 +40,8 @@ class FixHDBase : public Fix {
   /// 0: passes over the mesh of the last M^-1 f; 1: its residual |f - M a|/|f|
   double compute_vector(int) override;
   double memory_usage() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
   // === What others ask of an integrator
 
@@ -57,7 +61,13 @@ class FixHDBase : public Fix {
  protected:
   HDMass mass;
 
-  // === Moves of the momenta p = M v and of x. Random numbers are those of the present step
+  /** Steps with noise since the fix was made, restarts included: random numbers are a function of it, and
+      not of LAMMPS' timestep, which reset_timestep sets back. */
+  bigint noise_steps;
+  /// What restart files keep, of a fix with restart_global = 1.
+  virtual void archive(RestartArchive &file) { file(noise_steps); }
+
+  // === Moves of the momenta p = M v and of x
 
   /// Take the atoms' forces f for what follows: acceleration = M^-1 f.
   void accelerate();
@@ -66,7 +76,7 @@ class FixHDBase : public Fix {
   /// x += step v; stops if a control point runs away
   void drift(double step);
   /// p = keep p + noise: an exact step of friction and noise, with one number or, if the mass has
-  /// friction per vertex, one per owned vertex.
+  /// friction per vertex, one per owned vertex. Once a step.
   void relax(double keep, double kT, bigint seed);
   void relax(const std::vector<double> &keep, double kT, bigint seed);
   /// v = M^-1 f + random1 + random2, where M is a drag matrix: forces and drag balance.

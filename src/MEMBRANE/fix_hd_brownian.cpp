@@ -33,6 +33,7 @@ using namespace FixConst;
 FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
     FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1), numbering(-1)
 {
+  restart_global = 1;
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
   temperature = utils::numeric(FLERR, arg[3], false, lmp);
   seed = utils::bnumeric(FLERR, arg[4], false, lmp);
@@ -90,7 +91,7 @@ void FixHDBrownian::initial_integrate(int)
 {
   accelerate();
   const double kT = force->boltz * temperature / force->mvv2e;
-  const bigint step = update->ntimestep;
+  const bigint step = noise_steps++;
   noise.resize(mass.part().size());
   next_noise.resize(mass.part().size());
   if (next_step == step && numbering == mass.numbering())

@@ -164,15 +164,8 @@ double FixHDLangevin::compute_scalar()
   return tally ? energy : 0.0;
 }
 
-void FixHDLangevin::write_restart(FILE *fp)
+void FixHDLangevin::archive(RestartArchive &file)
 {
-  if (comm->me) return;
-  const int size = sizeof(double);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&energy, sizeof(double), 1, fp);
-}
-
-void FixHDLangevin::restart(char *buf)
-{
-  memcpy(&energy, buf, sizeof(double));
+  FixHDBase::archive(file);
+  file(energy);
 }

@@ -40,8 +40,9 @@ class FixHDLangevin : public FixHDBase {
   void reset_dt() override;
   void reset_target(double) override;
   double compute_scalar() override;
-  void write_restart(FILE *) override;
-  void restart(char *) override;
+
+ protected:
+  void archive(RestartArchive &) override;
 
  private:
   double t_start, t_stop, damp;

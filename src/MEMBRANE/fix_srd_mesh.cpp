@@ -36,6 +36,9 @@ using Inside = SRDMeshArguments::Inside;
 // default modulus in kT that keeps faces from turning over among solvent
 static constexpr double STIFF_MESH = 10.0;
 
+// steps between looks for solvent on the wrong side: they do not depend on who reads the results
+static constexpr int LOOK_EVERY = 100;
+
 /* ---------------------------------------------------------------------- */
 
 FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
@@ -43,7 +46,8 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     solvent(lmp, igroup), fluid(lmp, given), influences(lmp, this), streaming(lmp),
     observables(lmp), ghost_free(lmp, igroup, std::string("not_solvent_of_") + id),
     have_membranes(false), have_obstacle(false), running(false), membranes_join(false),
-    velocities_set(false), clear_forces(false), stiffness(0.0), sampled(-1), natoms_after_run(-1)
+    velocities_set(false), clear_forces(false), stiffness(0.0), sampled(-1), natoms_after_run(-1),
+    steps(0)
 {
   time_integrate = 1;
   force_reneighbor = 1;
@@ -218,7 +222,7 @@ void FixSRDMesh::setup_pre_force(int)
 {
   zero_forces();
   if (!velocities_set && given.set_velocities)
-    solvent.draw_velocities(given.seed, update->ntimestep, fluid.kT());
+    solvent.draw_velocities(given.seed, steps, fluid.kT());
   velocities_set = true;
 }
 
@@ -248,12 +252,14 @@ void FixSRDMesh::initial_integrate(int)
 void FixSRDMesh::final_integrate()
 {
   if (influences.have_forces) kick();
-  if (have_obstacle) obstacle->remember();
+  if (!have_obstacle) return;
+  obstacle->remember();
+  if (steps % LOOK_EVERY == 0) put_strays_back();
 }
 
 void FixSRDMesh::post_run()
 {
-  if (have_obstacle && running) check_sides();
+  if (have_obstacle && running) put_strays_back();
   solvent_changed();    // after it anybody may change velocities, and run pre no
   natoms_after_run = atom->natoms;
 }
@@ -283,6 +289,7 @@ void FixSRDMesh::post_integrate()
 {
   const double dt = update->dt;
   const bool due = is_due();
+  ++steps;
   if (have_obstacle) {
     streaming.place_walls();
     obstacle->begin_step(dt);
@@ -367,8 +374,8 @@ void FixSRDMesh::end_of_step()
 void FixSRDMesh::collide()
 {
   if (domain->box_change) cells->grid.setup(given.cells.size);
-  if (membranes_join) obstacle->join_cells(*cells, update->ntimestep, fluid.kT());
-  cells->collide(solvent, update->ntimestep, streaming.walls, fluid.filling(), fluid.mass(),
+  if (membranes_join) obstacle->join_cells(*cells, steps, fluid.kT());
+  cells->collide(solvent, steps, streaming.walls, fluid.filling(), fluid.mass(),
                  sides());
   if (membranes_join) obstacle->leave_cells(*cells);
   solvent_changed();
@@ -399,9 +406,10 @@ void FixSRDMesh::sample()
 {
   sampled = update->ntimestep;
   solvent.refresh();
-  if (have_obstacle && running) check_sides();
+  const bigint strays = have_obstacle && running ? obstacle->count_strays(solvent) : 0;
+  if (strays && given.inside == Inside::ERROR) report_strays(strays);
   observables.sample({solvent, fluid, *cells, sides(), have_membranes ? mass.get() : nullptr,
-                      obstacle.get(), have_obstacle, streaming.walls.impulse});
+                      obstacle.get(), have_obstacle, strays, streaming.walls.impulse});
 }
 
 // solvent on the two sides of a membrane does not collide with each other
@@ -416,13 +424,17 @@ const int *FixSRDMesh::sides()
   return side.data();
 }
 
-void FixSRDMesh::check_sides()
+void FixSRDMesh::put_strays_back()
 {
   solvent.refresh();
-  const bigint crossed = obstacle->check(solvent);
-  if (!crossed || given.inside == Inside::IGNORE) return;
+  const bigint strays = obstacle->put_back(solvent, steps);
+  if (strays && given.inside != Inside::IGNORE) report_strays(strays);
+}
+
+void FixSRDMesh::report_strays(bigint count)
+{
   const std::string text =
-      fmt::format("Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", crossed);
+      fmt::format("Fix srd/mesh: {} solvent atoms were on the wrong side of a membrane", count);
   if (given.inside == Inside::ERROR) error->all(FLERR, text);
   if (comm->me == 0) error->warning(FLERR, text + ", and were put back");
 }
@@ -461,9 +473,10 @@ int FixSRDMesh::unpack_exchange(int i, double *buf)
 void FixSRDMesh::write_restart(FILE *fp)
 {
   if (cells) sample();
-  double list[SRDObservables::NUM_VALUES + 1];
+  double list[SRDObservables::NUM_VALUES + 2];
   list[0] = velocities_set;
-  observables.store(list + 1);
+  list[1] = static_cast<double>(steps);
+  observables.store(list + 2);
   if (comm->me != 0) return;
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
@@ -472,10 +485,11 @@ void FixSRDMesh::write_restart(FILE *fp)
 
 void FixSRDMesh::restart(char *buf)
 {
-  double list[SRDObservables::NUM_VALUES + 1];
+  double list[SRDObservables::NUM_VALUES + 2];
   memcpy(list, buf, sizeof(list));
   velocities_set = list[0] != 0.0;
-  observables.restore(list + 1);
+  steps = static_cast<bigint>(list[1]);
+  observables.restore(list + 2);
 }
 
 double FixSRDMesh::memory_usage()

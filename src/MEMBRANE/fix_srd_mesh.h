@@ -98,6 +98,7 @@ class FixSRDMesh : public Fix {
   bool clear_forces;        // LAMMPS does not
   double stiffness;         // see extract(); 0 if nobody has asked
   bigint sampled, natoms_after_run;
+  bigint steps;    // done since the fix was made, restarts included: what random numbers depend on
 
   void check_group();
   void check_other_solvents();
@@ -113,7 +114,8 @@ class FixSRDMesh : public Fix {
   bool any_strayed();
   void sample();
   const int *sides();
-  void check_sides();
+  void put_strays_back();
+  void report_strays(bigint count);
 };
 
 }    // namespace LAMMPS_NS

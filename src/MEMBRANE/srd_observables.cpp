@@ -79,7 +79,7 @@ void SRDObservables::sample_obstacle(const Scene &scene)
   double sum[N];
   MPI_Allreduce(obstacle->tally, sum, N, MPI_DOUBLE, MPI_SUM, world);
   values[COLLISIONS] = sum[SurfaceObstacle::COLLISIONS];
-  values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS];
+  values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS] + scene.strays;
   values[RESCUES] = sum[SurfaceObstacle::RESCUES];
   std::copy_n(sum + SurfaceObstacle::HANDED, 3, values + HANDED);
   values[NORMAL_IMPULSE] = sum[SurfaceObstacle::INNER] - sum[SurfaceObstacle::OUTER];

@@ -39,6 +39,7 @@ class SRDObservables : protected Pointers {
     class HDMass *mass;                      ///< of membranes
     const class SurfaceObstacle *obstacle;
     bool have_regions;                       ///< the obstacle has assigned them
+    bigint strays;                           ///< on the wrong side, not yet among its crossings
     const double *wall_impulse;              ///< of this rank
   };
   /// Collective.

@@ -137,15 +137,29 @@ void SurfaceObstacle::finish(const SRDFlight &flight)
 
 /* ---------------------------------------------------------------------- */
 
-bigint SurfaceObstacle::check(const SRDSolvent &solvent)
+bigint SurfaceObstacle::count_strays(const SRDSolvent &solvent) const
 {
-  const auto here = rescue.put_back(solvent, 4.0 * CONTACT * motion.surface().mesh_edge());
+  bigint mine = rescue.count(solvent, contact()), all;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+bigint SurfaceObstacle::put_back(const SRDSolvent &solvent, bigint step)
+{
+  const auto here = rescue.put_back(solvent, contact(), step);
   if (here.rescued > 0) meetings.solvent_changed();
   tally[CROSSINGS] += here.crossed;
   tally[RESCUES] += here.rescued;
   bigint crossed;
   MPI_Allreduce(&here.crossed, &crossed, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return crossed;
+}
+
+// what is closer to the surface is on it, by rounding
+
+double SurfaceObstacle::contact() const
+{
+  return 4.0 * CONTACT * motion.surface().mesh_edge();
 }
 
 double SurfaceObstacle::memory_usage() const

@@ -67,8 +67,10 @@ class SurfaceObstacle : protected Pointers {
   void leave_cells(SRDCells &cells) { in_cells.leave(cells, tally + HANDED); }
   /// From final_integrate().
   void remember() { motion.remember(); }
-  /// Counts solvent on the wrong side, and puts it back on its own. Returns how many there were.
-  bigint check(const SRDSolvent &);
+  /// Collective: how many solvent atoms are on the wrong side.
+  bigint count_strays(const SRDSolvent &) const;
+  /// Counts them, and puts them back on their own. Returns how many there were.
+  bigint put_back(const SRDSolvent &, bigint step);
 
   // === Per-atom data, as of a fix
 
@@ -103,6 +105,7 @@ class SurfaceObstacle : protected Pointers {
 
   void run(const SRDFlight &);
   void finish(const SRDFlight &);
+  double contact() const;
   [[noreturn]] void report_escape();
 };
 

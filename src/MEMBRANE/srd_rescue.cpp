@@ -22,7 +22,6 @@
 #include "membrane_srd_collision.h"
 #include "srd_solvent.h"
 #include "srd_surface_motion.h"
-#include "update.h"
 
 #include <Eigen/Geometry>
 
@@ -38,7 +37,8 @@ SurfaceRescue::SurfaceRescue(LAMMPS *lmp, SurfaceMotion &motion, SurfaceRegions 
 {
 }
 
-SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double contact)
+SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double contact,
+                                            bigint step)
 {
   Counts counts;
   for (const auto &crossing : regions.find_crossings(solvent)) {
@@ -47,9 +47,19 @@ SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double 
     const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
     if ((x - nearest).norm() <= contact) continue;
     ++counts.crossed;
-    if (put_beside(crossing, nearest, normal) || put_anywhere(crossing)) ++counts.rescued;
+    if (put_beside(crossing, nearest, normal) || put_anywhere(crossing, step)) ++counts.rescued;
   }
   return counts;
+}
+
+bigint SurfaceRescue::count(const SRDSolvent &solvent, double contact) const
+{
+  bigint n = 0;
+  for (const auto &crossing : regions.find_crossings(solvent)) {
+    Vector3d normal;
+    n += (Vector3d::Map(atom->x[crossing.atom]) - nearest_point(crossing, normal)).norm() > contact;
+  }
+  return n;
 }
 
 // the point of a surface nearest to an atom, in the image nearest to it, and the normal there
@@ -105,12 +115,12 @@ bool SurfaceRescue::put_beside(const SurfaceRegions::Crossing &crossing, const V
   return false;
 }
 
-bool SurfaceRescue::put_anywhere(const SurfaceRegions::Crossing &crossing)
+bool SurfaceRescue::put_anywhere(const SurfaceRegions::Crossing &crossing, bigint step)
 {
   const int i = crossing.atom;
   Vector3d x;
   constexpr int TRIALS = 1000;
-  const Membrane_NS::CounterRandom random(atom->tag[i], update->ntimestep);
+  const Membrane_NS::CounterRandom random(atom->tag[i], step);
   for (int trial = 0; trial < TRIALS; ++trial) {
     const auto a = random.uniforms(trial, 0), b = random.uniforms(trial, 1);
     const double s[3] = {a[0], a[1], b[0]};

@@ -30,9 +30,11 @@ class SurfaceRescue : protected Pointers {
     bigint crossed = 0;    ///< were on the wrong side
     bigint rescued = 0;    ///< and are not any more
   };
+  /// Of this rank's solvent: how many are on the wrong side.
+  bigint count(const class SRDSolvent &, double contact) const;
   /// Collective: of this rank's solvent. What is closer than `contact` to the surface is on it, by
-  /// rounding.
-  Counts put_back(const class SRDSolvent &, double contact);
+  /// rounding. Random numbers depend on `step`.
+  Counts put_back(const class SRDSolvent &, double contact, bigint step);
 
  private:
   SurfaceMotion &motion;
@@ -41,7 +43,7 @@ class SurfaceRescue : protected Pointers {
   Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &, Eigen::Vector3d &normal) const;
   bool put_beside(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest,
                   const Eigen::Vector3d &normal);
-  bool put_anywhere(const SurfaceRegions::Crossing &);
+  bool put_anywhere(const SurfaceRegions::Crossing &, bigint step);
 };
 
 }    // namespace LAMMPS_NS
