@@ -137,6 +137,30 @@ for ranks in RANKS:
     claim(f"reset_atoms mol on {ranks}, which looks at bonds only, takes membranes apart, and it is said",
           "joins membranes" in error, error)
 
+# === Noise is not replayed after reset_timestep, nor after a restart, which goes on where it was
+
+ONE_STEP = "velocity all create 1.0 77\nrun 1\n"
+NOISE = {
+    # friction that leaves nothing of the velocities before
+    "fix hd/langevin": START + FORCES + "fix i all hd/langevin 1.0 1.0 1e-12 4711\n",
+    "fix hd/brownian": START + FORCES + "fix i all hd/brownian 1.0 4711 gamma_t 1e6\n",
+    "fix srd/mesh": START.replace(VESICLE, "create_solvent 2 both 5.0 4711 mass 1.0") +
+                    "fix i all srd/mesh 1 NULL 1.0 1.0 4711 shift yes 9127\n",
+}
+for ranks in RANKS:
+    for name, script in NOISE.items():
+        script += "timestep 1e-9\nthermo_style custom step ke\nthermo 1\nthermo_modify norm no format float %24.17g\n"
+        script += "variable v equal vx[7]\n" + ONE_STEP + "print 'v $(v_v:%.17g)'\nreset_timestep 0\nwrite_restart n.restart\n"
+        code, output = lammps(script + ONE_STEP + "print 'v $(v_v:%.17g)'\n", ranks=ranks)
+        first, second = ([float(line.split()[1]) for line in output.splitlines() if line.startswith("v ")] + [0, 0])[:2]
+        claim(f"{name} on {ranks}: another velocity in the second run", code == 0 and abs(first - second) > 1e-6 * abs(first),
+              (first, second))
+        fix = next(line for line in script.splitlines() if line.startswith("fix"))
+        code, output = lammps("read_restart n.restart\n" + fix + "\ntimestep 1e-9\nvariable v equal vx[7]\n" +
+                              ONE_STEP + "print 'v $(v_v:%.17g)'\n", ranks=ranks)
+        again = [float(line.split()[1]) for line in output.splitlines() if line.startswith("v ")]
+        claim("   ... the same after a restart", code == 0 and again == [second], (again, second))
+
 # === Solvent
 
 SOLVENT = """
