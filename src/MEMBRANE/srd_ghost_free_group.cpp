@@ -20,10 +20,9 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "force.h"
 #include "group.h"
 #include "neighbor.h"
-#include "pair.h"
+#include "srd_force_styles.h"
 
 #include <vector>
 
@@ -46,7 +45,7 @@ GhostFreeGroup::~GhostFreeGroup()
 
 void GhostFreeGroup::init(bool wanted)
 {
-  if (made && !(wanted && !has_pair_forces())) restore();
+  if (made && !(wanted && !feel_force_styles(lmp, groupbit))) restore();
   if (!made && wanted && possible()) {
     const int rest = group->find_or_create(name.c_str());
     atom->firstgroupname = utils::strdup(name);
@@ -86,25 +85,7 @@ bool GhostFreeGroup::possible()
       error->warning(FLERR, "There are too many groups to keep solvent out of the ghost exchange");
     return false;
   }
-  return !has_pair_forces();
-}
-
-/* ----------------------------------------------------------------------
-   whether a type of the group has a pair force with any type
-------------------------------------------------------------------------- */
-
-bool GhostFreeGroup::has_pair_forces()
-{
-  const Pair *pair = force->pair;
-  if (!pair || !pair->cutsq) return false;
-  std::vector<int> mine(atom->ntypes + 1, 0), any(atom->ntypes + 1);
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) mine[atom->type[i]] = 1;
-  MPI_Allreduce(mine.data(), any.data(), atom->ntypes + 1, MPI_INT, MPI_MAX, world);
-  for (int t = 1; t <= atom->ntypes; ++t)
-    for (int other = 1; other <= atom->ntypes && any[t]; ++other)
-      if (pair->cutsq[t][other] > 0.0) return true;
-  return false;
+  return !feel_force_styles(lmp, groupbit);
 }
 
 /* ----------------------------------------------------------------------

@@ -30,7 +30,7 @@ class GhostFreeGroup : protected Pointers {
   GhostFreeGroup(class LAMMPS *, int igroup, std::string name);
   ~GhostFreeGroup() override;
 
-  /// Collective; call from init(). Does nothing if atoms of the group have neighbors: pair forces.
+  /// Collective; call from init(). Does nothing if force styles act on atoms of the group.
   void init(bool wanted);
   /// New atoms may have come between runs: call from setup_pre_exchange().
   void update();
@@ -44,7 +44,6 @@ class GhostFreeGroup : protected Pointers {
 
   void exchange_only(std::string);
   bool possible();
-  bool has_pair_forces();
   void restore();
 };
 

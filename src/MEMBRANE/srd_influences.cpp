@@ -21,10 +21,9 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_deform.h"
-#include "force.h"
 #include "group.h"
 #include "modify.h"
-#include "pair.h"
+#include "srd_force_styles.h"
 #include "srd_solvent.h"
 
 #include <algorithm>
@@ -111,11 +110,7 @@ void SRDInfluences::find(const SRDSolvent &solvent)
             (group->dynamic[fixes[f]->igroup] || atom->mask[i] & fixes[f]->groupbit))
           mine[what] = 1;
   }
-  if (force->pair && force->pair->cutsq)
-    for (int i = 0; i < atom->nlocal && !mine[0]; ++i)
-      for (int t = 1; t <= atom->ntypes && solvent.has(i); ++t)
-        if (force->pair->cutsq[atom->type[i]][t] > 0.0) mine[0] = 1;
   MPI_Allreduce(mine, any, 2, MPI_INT, MPI_MAX, world);
-  have_forces = any[0];
+  have_forces = feel_force_styles(lmp, self->groupbit) || any[0];
   velocities_stay = !any[1];
 }

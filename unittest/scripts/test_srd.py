@@ -186,6 +186,42 @@ rows = thermo(run(head(box=TILTED.format("0.0")) + fix("shift yes 9127 tstat yes
 rate = rows[-1]["c_p"] / rows[-1]["c_yy"]
 claim("a box that shears, with remap v, drags the solvent along at its rate", abs(rate / 0.05 - 1) < 0.15, f"{rate:.4f}")
 
+# === Forces of bonds and angles: between collisions solvent moves as by fix nve
+
+CHAIN = """
+units           lj
+atom_style      full
+region          box block -3 3 -3 3 -3 3
+create_box      1 box bond/types 1 angle/types 1 extra/bond/per/atom 2 extra/angle/per/atom 1 extra/special/per/atom 4
+create_atoms    1 single -1.3 0.1 0.0
+create_atoms    1 single 0.2 0.0 0.3
+create_atoms    1 single 1.2 0.9 0.0
+create_atoms    1 single 1.5 -1.9 0.2
+mass            1 1.0
+comm_modify     cutoff 4.0
+{forces}
+{fix}
+timestep        0.01
+dump            d all custom 100 chain.dump id x y z vx vy vz
+dump_modify     d sort id format float %.17g
+run             100
+"""
+FORCE_STYLES = {
+    "bonds": "bond_style harmonic\nbond_coeff 1 100.0 1.0\ncreate_bonds single/bond 1 1 2\n",
+    "angles": "angle_style harmonic\nangle_coeff 1 50.0 90.0\ncreate_bonds single/angle 1 1 2 3\n",
+}
+for name, forces in FORCE_STYLES.items():
+    for ranks in (1, 2):
+        frames = {}
+        for mover in ("nve", "srd/mesh 1000000 NULL 1.0 1.0 4711 shift yes 9127 velocity keep ghosts no",
+                      "srd/mesh 1000000 NULL 1.0 1.0 4711 shift yes 9127 velocity keep ghosts yes"):
+            run(CHAIN.format(forces=forces, fix=f"fix m all {mover}"), ranks=ranks)
+            frames[mover] = read_dump("chain.dump")[-1]
+        exact = frames.pop("nve")
+        worst = max(abs(a - b) for found in frames.values() for i in exact for a, b in zip(exact[i], found[i]))
+        moved = max(abs(v) for row in exact.values() for v in row[3:])
+        claim(f"{name} of solvent on {ranks} rank(s): as with fix nve", worst < 1e-11 and moved > 0.01, (worst, moved))
+
 # === Ghosts, and what else solvent may be
 
 code, output = lammps(head() + "pair_style zero 2.5\npair_coeff * *\n" + fix() + "run 100\n", ranks=2)
