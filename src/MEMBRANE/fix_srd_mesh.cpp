@@ -27,6 +27,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -47,7 +48,7 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
     observables(lmp), ghost_free(lmp, igroup, std::string("not_solvent_of_") + id),
     have_membranes(false), have_obstacle(false), running(false), membranes_join(false),
     velocities_set(false), clear_forces(false), stiffness(0.0), sampled(-1), natoms_after_run(-1),
-    steps(0)
+    steps(0), measured{}, reported(false)
 {
   time_integrate = 1;
   force_reneighbor = 1;
@@ -100,7 +101,7 @@ void FixSRDMesh::init()
     error->all(FLERR, "Fix srd/mesh does not work with run_style respa");
   running = false;
   solvent.refresh();
-  check_group();
+  solvent.check(membrane >= 0 ? group->bitmask[membrane] : 0);
   influences.init(solvent);
   ghost_free.init(!given.ghosts);
   clear_forces = ghost_free.active();
@@ -147,32 +148,6 @@ void *FixSRDMesh::extract(const char *name, int &dim)
 }
 
 /* ----------------------------------------------------------------------
-   solvent: some, no control points among it
-------------------------------------------------------------------------- */
-
-void FixSRDMesh::check_group()
-{
-  if (solvent.total() == 0)
-    error->all(FLERR,
-               "Fix srd/mesh: there is no solvent in group {}: use create_atoms or "
-               "create_solvent",
-               group->names[igroup]);
-
-  tagint bad[2] = {0, 0}, any[2];    // no mass, in both groups
-  const int membrane_bit = membrane >= 0 ? group->bitmask[membrane] : 0;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!solvent.has(i)) continue;
-    if (!(solvent.mass()[i] > 0.0)) bad[0] = MAX(bad[0], atom->tag[i]);
-    if (atom->mask[i] & membrane_bit) bad[1] = MAX(bad[1], atom->tag[i]);
-  }
-  MPI_Allreduce(bad, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (any[0]) error->all(FLERR, "Fix srd/mesh: solvent atom {} has no positive mass", any[0]);
-  if (any[1])
-    error->all(FLERR, "Fix srd/mesh: atom {} is both solvent and in the group of membranes",
-               any[1]);
-}
-
-/* ----------------------------------------------------------------------
    two fixes would each take the other's impulses for motion of the membrane without solvent
 ------------------------------------------------------------------------- */
 
@@ -202,7 +177,6 @@ void FixSRDMesh::prepare_cells()
   cells = std::make_unique<SRDCells>(lmp, fluid.cell_settings());
   cells->grid.setup(given.cells.size);
   fluid.fit(cells->grid, first);
-  if (first) fluid.report(cells->grid);
 }
 
 // === Setup of a run
@@ -232,9 +206,36 @@ void FixSRDMesh::setup(int)
   have_obstacle = have_membranes;
   membranes_join = have_obstacle && given.noslip;
   running = true;
-  if (!have_obstacle) return;
-  obstacle->meetings.forces_on_solvent = influences.have_forces;
-  obstacle->setup(solvent);
+  if (have_obstacle) {
+    obstacle->meetings.forces_on_solvent = influences.have_forces;
+    obstacle->setup(solvent);
+    measure_sides();
+  }
+  if (!reported) fluid.report(cells->grid);
+  reported = true;
+}
+
+/* ----------------------------------------------------------------------
+   volumes are those of the first run with these membranes and this solvent, kept in restart files: the
+   filling of cells at walls depends on them, and a run is to continue as if it had not stopped
+------------------------------------------------------------------------- */
+
+void FixSRDMesh::measure_sides()
+{
+  sides();
+  bigint mine[2] = {0, 0};
+  SRDFluid::Sides now;
+  for (int i = solvent.first(); i < solvent.last(); ++i)
+    if (solvent.has(i)) ++mine[side[i]];
+  MPI_Allreduce(mine, now.atoms, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  const double scene[2] = {static_cast<double>(solvent.total()),
+                           static_cast<double>(mass->mesh().topology().num_vertices())};
+  if (scene[0] != measured.scene[0] || scene[1] != measured.scene[1]) {
+    const auto volumes = obstacle->regions.volumes();
+    measured = {{scene[0], scene[1]}, {volumes[0], volumes[1]}};
+  }
+  std::copy_n(measured.volume, 2, now.volume);
+  fluid.fit_sides(cells->grid, now);
 }
 
 // === A step
@@ -473,10 +474,10 @@ int FixSRDMesh::unpack_exchange(int i, double *buf)
 void FixSRDMesh::write_restart(FILE *fp)
 {
   if (cells) sample();
-  double list[SRDObservables::NUM_VALUES + 2];
-  list[0] = velocities_set;
-  list[1] = static_cast<double>(steps);
-  observables.store(list + 2);
+  double list[SRDObservables::NUM_VALUES + 6] = {
+      double(velocities_set), double(steps),      measured.scene[0],
+      measured.scene[1],      measured.volume[0], measured.volume[1]};
+  observables.store(list + 6);
   if (comm->me != 0) return;
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
@@ -485,11 +486,12 @@ void FixSRDMesh::write_restart(FILE *fp)
 
 void FixSRDMesh::restart(char *buf)
 {
-  double list[SRDObservables::NUM_VALUES + 2];
+  double list[SRDObservables::NUM_VALUES + 6];
   memcpy(list, buf, sizeof(list));
   velocities_set = list[0] != 0.0;
   steps = static_cast<bigint>(list[1]);
-  observables.restore(list + 2);
+  measured = {{list[2], list[3]}, {list[4], list[5]}};
+  observables.restore(list + 6);
 }
 
 double FixSRDMesh::memory_usage()

@@ -99,11 +99,15 @@ class FixSRDMesh : public Fix {
   double stiffness;         // see extract(); 0 if nobody has asked
   bigint sampled, natoms_after_run;
   bigint steps;    // done since the fix was made, restarts included: what random numbers depend on
+  struct {
+    double scene[2], volume[2];    // of so much solvent and so many control points, the two sides' parts
+  } measured;
+  bool reported;
 
-  void check_group();
   void check_other_solvents();
   void init_membranes();
   void prepare_cells();
+  void measure_sides();
   void stream_past_membranes(double dt, double until_collision);
   void kick();
   void solvent_changed();

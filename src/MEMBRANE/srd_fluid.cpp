@@ -39,7 +39,7 @@ static constexpr double SHORT_PATH = 0.1, SHIFT_PATH = 0.6;
 
 SRDFluid::SRDFluid(LAMMPS *lmp, const SRDMeshArguments &given) :
     Pointers(lmp), given(given), temp(given.temperature), mean_mass(1.0), path(0.0), in_cell(0.0),
-    eta(0.0), atoms(0)
+    eta(0.0), side_in_cell{}, side_eta{}, atoms(0)
 {
 }
 
@@ -100,11 +100,32 @@ void SRDFluid::fit(const SRDGrid &grid, bool warn)
     if (comm->me == 0 && warn) error->warning(FLERR, text);
   }
 
+  eta = viscosity_of(in_cell, grid);
+  for (int side : {0, 1}) side_in_cell[side] = side_eta[side] = 0.0;
+}
+
+double SRDFluid::viscosity_of(double particles, const SRDGrid &grid) const
+{
   const double edge = std::cbrt(grid.cell_volume());
   const auto &rule = given.cells.rule;
-  eta = rule.method == CollisionRule::Method::SRD
-      ? Membrane_NS::srd_viscosity(in_cell, rule.angle, kT(), mean_mass, edge, step())
-      : Membrane_NS::at_viscosity(in_cell, kT(), mean_mass, edge, step());
+  return rule.method == CollisionRule::Method::SRD
+      ? Membrane_NS::srd_viscosity(particles, rule.angle, kT(), mean_mass, edge, step())
+      : Membrane_NS::at_viscosity(particles, kT(), mean_mass, edge, step());
+}
+
+void SRDFluid::fit_sides(const SRDGrid &grid, const Sides &sides)
+{
+  const double whole = in_cell;    // if it were spread over the box
+  double filled = 0.0;
+  for (int side : {0, 1}) {
+    if (sides.atoms[side] == 0 || sides.volume[side] == 0.0) continue;
+    filled += sides.volume[side];
+    side_in_cell[side] = whole * sides.atoms[side] / (atoms * sides.volume[side]);
+    side_eta[side] = viscosity_of(side_in_cell[side], grid);
+  }
+  if (filled == 0.0) return;
+  in_cell = whole / filled;
+  eta = viscosity_of(in_cell, grid);
 }
 
 void SRDFluid::report(const SRDGrid &grid) const
@@ -116,4 +137,9 @@ void SRDFluid::report(const SRDGrid &grid) const
       "  atoms per cell = {:.6g}, mean free path = {:.6g}, viscosity = {:.6g}\n",
       atoms, grid.divisions(0), grid.divisions(1), grid.divisions(2), grid.edge(0), grid.edge(1),
       grid.edge(2), in_cell, path, eta);
+  const char *name[] = {"outside", "inside"};
+  for (int side : {1, 0})
+    if (side_eta[0] > 0.0 && side_eta[1] > 0.0)
+      utils::logmesg(lmp, "  {}: atoms per cell = {:.6g}, viscosity = {:.6g}\n", name[side],
+                     side_in_cell[side], side_eta[side]);
 }

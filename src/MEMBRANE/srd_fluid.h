@@ -34,6 +34,13 @@ class SRDFluid : protected Pointers {
   /// And of cells that fit the box; stops if they are far from cubes of the wanted size, or warns
   /// if asked to.
   void fit(const SRDGrid &, bool warn);
+  /// What each side of the membranes (0 even, 1 odd, see SurfaceRegions) has of the solvent and of the box.
+  struct Sides {
+    bigint atoms[2];
+    double volume[2];
+  };
+  /// After fit(): solvent fills the sides that have some, each with a density of its own.
+  void fit_sides(const SRDGrid &, const Sides &);
   void report(const SRDGrid &) const;
 
   double temperature() const { return temp; }
@@ -41,17 +48,21 @@ class SRDFluid : protected Pointers {
   double kT() const;
   double mass() const { return mean_mass; }
   double free_path() const { return path; }
-  /// Mean number in a cell.
+  /// Mean number in a cell of the space that has solvent.
   double filling() const { return in_cell; }
   double viscosity() const { return eta; }
+  /// The same of one side; 0 without solvent there, or without membranes.
+  double viscosity(int side) const { return side_eta[side]; }
   bigint count() const { return atoms; }
 
  private:
   const SRDMeshArguments &given;
   double temp, mean_mass, path, in_cell, eta;
+  double side_in_cell[2], side_eta[2];
   bigint atoms;
 
   double step() const;
+  double viscosity_of(double in_cell, const SRDGrid &) const;
 };
 
 }    // namespace LAMMPS_NS

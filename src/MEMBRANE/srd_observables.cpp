@@ -44,6 +44,8 @@ void SRDObservables::sample(const Scene &scene)
   values[TEMPERATURE_OUT] = temperature_of(thermal.outside);
   values[FREE_PATH] = scene.fluid.free_path();
   values[VISCOSITY] = scene.fluid.viscosity();
+  values[VISCOSITY_OUT] = scene.fluid.viscosity(0);
+  values[VISCOSITY_IN] = scene.fluid.viscosity(1);
   sample_momentum(scene);
   sample_obstacle(scene);
   MPI_Allreduce(scene.wall_impulse, values + WALLS, 3, MPI_DOUBLE, MPI_SUM, world);

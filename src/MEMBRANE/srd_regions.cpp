@@ -27,12 +27,16 @@
 #include "srd_solvent.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 using Membrane_NS::Face;
 using Membrane_NS::SurfaceSide;
+
+// for volumes
+static constexpr int PLACES = 30000;
 
 /* ---------------------------------------------------------------------- */
 
@@ -191,6 +195,29 @@ void SurfaceRegions::find_parities(const SRDSolvent &solvent, int *parity) const
         if (flip[k]) sum += flag(atom->image[i], k);
     parity[i] = sum & 1;
   }
+}
+
+/* ----------------------------------------------------------------------
+   Places of an additive recurrence with powers of the root of g^4 = g + 1 [M. Roberts, The unreasonable
+   effectiveness of quasirandom sequences, 2018]: unlike a grid's, their layers do not line up with those of
+   a cylinder or a sheet along the box
+------------------------------------------------------------------------- */
+
+std::array<double, 2> SurfaceRegions::volumes() const
+{
+  constexpr double G = 1.2207440846057596;
+  const Vector3d stride(1.0 / G, 1.0 / (G * G), 1.0 / (G * G * G));
+  int mine = 0, odd_places;
+  for (int i = comm->me; i < PLACES; i += comm->nprocs) {
+    Vector3d x = Vector3d::Constant(0.5) + i * stride;
+    for (double &c : x) c -= std::floor(c);
+    int level = 0;
+    for (int c : motion.surface().components()) level += sides[c].level(x);
+    mine += level & 1;
+  }
+  MPI_Allreduce(&mine, &odd_places, 1, MPI_INT, MPI_SUM, world);
+  const double part = (double) odd_places / PLACES;
+  return {1.0 - part, part};
 }
 
 double SurfaceRegions::memory_usage() const

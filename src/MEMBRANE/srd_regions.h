@@ -55,6 +55,9 @@ class SurfaceRegions : protected Pointers {
       changes its parity if flips() says so. */
   void find_parities(const class SRDSolvent &, int *parity) const;
   bool flips(int direction) const { return flip[direction] != 0; }
+  /** Collective, after assign(): the parts of the box whose parity is even and odd, by 30,000 places: good
+      to two parts in a thousand. The same on any number of ranks. */
+  std::array<double, 2> volumes() const;
 
   /// By local atom; grow_arrays() and the like of a fix.
   int *region;

@@ -18,6 +18,7 @@
 #include "srd_solvent.h"
 
 #include "atom.h"
+#include "error.h"
 #include "force.h"
 #include "group.h"
 #include "membrane_srd.h"
@@ -29,7 +30,10 @@ using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
-SRDSolvent::SRDSolvent(LAMMPS *lmp, int igroup) : Pointers(lmp), groupbit(group->bitmask[igroup]) {}
+SRDSolvent::SRDSolvent(LAMMPS *lmp, int igroup) :
+    Pointers(lmp), igroup(igroup), groupbit(group->bitmask[igroup])
+{
+}
 
 /* ----------------------------------------------------------------------
    LAMMPS keeps the atoms of its first group in front, so solvent is often one range
@@ -49,6 +53,27 @@ void SRDSolvent::refresh()
   by_type.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; ++i) by_type[i] = atom->mass[atom->type[i]];
   masses = by_type.data();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SRDSolvent::check(int membrane_bit) const
+{
+  if (total() == 0)
+    error->all(FLERR,
+               "Fix srd/mesh: there is no solvent in group {}: use create_atoms or create_solvent",
+               group->names[igroup]);
+  tagint bad[2] = {0, 0}, any[2];    // no mass, in both groups
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!has(i)) continue;
+    if (!(mass()[i] > 0.0)) bad[0] = MAX(bad[0], atom->tag[i]);
+    if (atom->mask[i] & membrane_bit) bad[1] = MAX(bad[1], atom->tag[i]);
+  }
+  MPI_Allreduce(bad, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (any[0]) error->all(FLERR, "Fix srd/mesh: solvent atom {} has no positive mass", any[0]);
+  if (any[1])
+    error->all(FLERR, "Fix srd/mesh: atom {} is both solvent and in the group of membranes",
+               any[1]);
 }
 
 /* ----------------------------------------------------------------------

@@ -39,6 +39,10 @@ class SRDSolvent : protected Pointers {
   /// Mass of owned atom i, by index.
   const double *mass() const { return masses; }
 
+  /// Collective; call from init(). Stops if there is none, if atoms have no mass, or if some are of the group
+  /// of membranes.
+  void check(int membrane_bit) const;
+
   // === Velocities and forces
 
   /// Collective: velocities drawn from Maxwell's distribution of kT (mass times velocity squared),
@@ -55,7 +59,7 @@ class SRDSolvent : protected Pointers {
   void momentum(double *) const;
 
  private:
-  int groupbit;
+  int igroup, groupbit;
   int begin = 0, end = 0, mine = 0;
   const int *mask = nullptr;
   const double *masses = nullptr;

@@ -453,4 +453,44 @@ for move, word in (("fix 1 membrane hd/brownian 1.0 4711 gamma_t 1.0", "momenta"
     said = error(move=move)
     claim(f"{move}: an error with the cure", "Fix srd/mesh" in said and word in said, said)
 
+# === Numbers of the solvent are those of the space that has some
+
+FLUID = """
+units           lj
+atom_style      membrane_cp
+region          box block -6.5 6.5 -6.5 6.5 0 12
+create_box      2 box angle/types 1
+{shape}
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0
+group           wall type 1
+group           solvent type 2
+fix             s solvent srd/mesh 1 {group} 1.0 1.0 4711 angle 130 shift yes 9127
+timestep        0.1
+thermo_style    custom step f_s[10] f_s[21] f_s[22] f_s[8] f_s[9]
+run             0
+"""
+
+
+def viscosities(shape, group="wall", ranks=1):
+    row = thermo(run(FLUID.format(shape=shape, group=group), ranks=ranks))[-1]
+    return row["f_s[10]"], row["f_s[21]"], row["f_s[22]"], row["f_s[8]"] + row["f_s[9]"]
+
+
+CYLINDER = "create_membrane 1 cylinder 32 16 5.0 z interpolate yes mass 10\nregion bore cylinder z 0 0 4.9 INF INF\n"
+SPHERE = "create_membrane 1 sphere 3 4.0 interpolate yes center 0 0 6 mass 10\n"
+bulk = {density: viscosities(f"create_solvent 2 both {density} 4711", "NULL")[0] for density in (5, 10)}
+for ranks in (1, 2):
+    eta, inside, outside, atoms = viscosities(CYLINDER + "create_solvent 2 both 5.0 4711 region bore", ranks=ranks)
+    density = atoms / (math.pi * 25.0 * 12.0)    # once they have spread
+    expected = bulk[5] + (density - 5.0) * (bulk[10] - bulk[5]) / 5.0
+    claim(f"solvent in a bore on {ranks}: the viscosity of the bore, not of the box",
+          abs(eta / expected - 1) < 0.02 and inside == eta and outside == 0, (eta, expected))
+    eta, inside, outside, _ = viscosities(SPHERE + "create_solvent 2 inside 10.0 4711", ranks=ranks)
+    claim(f"solvent in a vesicle on {ranks}: the viscosity there", abs(eta / bulk[10] - 1) < 0.01 and
+          inside == eta and outside == 0, (eta, bulk[10]))
+    eta, inside, outside, _ = viscosities(SPHERE + "create_solvent 2 inside 10.0 4711\ncreate_solvent 2 outside 5.0 4712", ranks=ranks)
+    claim(f"solvent of two densities on {ranks}: two viscosities", abs(inside / bulk[10] - 1) < 0.01 and
+          abs(outside / bulk[5] - 1) < 0.01 and outside < eta < inside, (inside, outside, eta))
+
 finish()
