@@ -13,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 LMP = os.environ["LMP"]
 LMP_PLAIN = os.environ["LMP_PLAIN"]
@@ -54,9 +55,16 @@ def lammps(script, ranks=1, args=(), lmp=LMP, env=None, timeout=600):
         file.write(script)
     command = [MPIEXEC, "-n", str(ranks)] if MPIEXEC and ranks > 1 else []
     command += [lmp, "-in", "in.test", "-log", "log.test", *map(str, args)]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=timeout,
-                          env={**os.environ, **(env or {})})
+    return start(command, timeout, env)
+
+
+def start(command, timeout, env=None):
+    """Run a command; return (exit code, everything that it printed)."""
+    # Open MPI removes its folder below /tmp at the end if it is empty, while another run may be about to use it
+    with tempfile.TemporaryDirectory(prefix="ompi") as folder:
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, timeout=timeout,
+                              env={**os.environ, "OMPI_MCA_orte_tmpdir_base": folder, **(env or {})})
     return done.returncode, done.stdout
 
 

@@ -5,7 +5,7 @@ import concurrent.futures
 import os
 import subprocess
 
-from lammps_claims import LMP, MPIEXEC, claim, finish
+from lammps_claims import LMP, MPIEXEC, claim, finish, start
 from membrane_scenes import bipyramid, write_off
 
 # === Meshes with one thing wrong
@@ -238,12 +238,11 @@ def errors(number, ranks, script):
         file.write(script)
     command = ([MPIEXEC, "-n", str(ranks)] if ranks > 1 else []) + [LMP, "-in", path, "-log", "none"]
     try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, timeout=60)
+        code, output = start(command, timeout=60)
     except subprocess.TimeoutExpired:
         return 0, ["no end after a minute"]
-    lines = [line for line in done.stdout.splitlines() if line.startswith("ERROR")]
-    return done.returncode, lines or done.stdout.splitlines()[-20:]
+    lines = [line for line in output.splitlines() if line.startswith("ERROR")]
+    return code, lines or output.splitlines()[-20:]
 
 
 def check(number, ranks, script, fragment):
