@@ -321,7 +321,8 @@ void FixHDBase::restart(char *buf)
 {
   int length;
   memcpy(&length, buf, sizeof(int));
-  RestartArchive file(std::string(buf + sizeof(int), length));
+  const std::string bytes(buf + sizeof(int), length);
+  RestartArchive file(bytes);
   archive(file);
   if (!file.ok() || !file.at_end())
     error->all(FLERR, "The restart file is damaged, or of another version: fix {} ({})", id, style);

@@ -102,6 +102,7 @@ void HelfrichModel::init()
   check_types();
   if (scene.mesh->topology().num_faces() == 0 && comm->me == 0)
     error->warning(FLERR, "Pair style helfrich finds no membrane: use create_membrane or read_data");
+  scene.mesh->warn_of_overlap();
   choose();
 }
 

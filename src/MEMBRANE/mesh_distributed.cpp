@@ -22,6 +22,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "membrane_tessellation.h"
 #include "mesh_box.h"
 #include "neighbor.h"
 #include "update.h"
@@ -83,6 +84,35 @@ Membrane_NS::TriangleMesh DistributedMesh::triangle_mesh() const
   for (size_t i = 0; i < unwrapped().size(); i += 3) mesh.points.emplace_back(&unwrapped()[i]);
   mesh.faces = topo.faces();
   return mesh;
+}
+
+/* ----------------------------------------------------------------------
+   a component that is wider than the box, in a direction it does not continue in, runs into its images
+------------------------------------------------------------------------- */
+
+void DistributedMesh::warn_of_overlap() const
+{
+  if (comm->me != 0) return;
+  const auto continues = continuing_directions(topo, triangle_mesh());
+  const std::vector<double> &x = unwrapped();
+  const int n = topo.num_components();
+  std::vector<std::array<double, 3>> lo(n, {INFINITY, INFINITY, INFINITY}),
+      hi(n, {-INFINITY, -INFINITY, -INFINITY});
+  for (int v = 0; v < topo.num_vertices(); ++v) {
+    const int c = topo.component(v);
+    const auto s = in_box_lengths(*domain, &x[3 * v]);
+    for (int k = 0; k < 3; ++k) {
+      lo[c][k] = MIN(lo[c][k], s[k]);
+      hi[c][k] = MAX(hi[c][k], s[k]);
+    }
+  }
+  for (int c = 0; c < n; ++c)
+    for (int k = 0; k < 3; ++k)
+      if (domain->periodicity[k] && !continues[c][k] && hi[c][k] - lo[c][k] > 1.0)
+        error->warning(FLERR,
+                       "Membrane {} spans {:.4g} of the periodic box in {}: it overlaps its own images; "
+                       "use a larger box",
+                       molecule(c), hi[c][k] - lo[c][k], "xyz"[k]);
 }
 
 /* ---------------------------------------------------------------------- */

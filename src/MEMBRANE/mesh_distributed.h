@@ -51,6 +51,8 @@ class DistributedMesh : public MeshFaces {
   /// Whether a component encloses a volume, as opposed to one that continues through the box.
   bool is_closed(int component) const { return pieces.is_closed(component); }
   bool is_closed_membrane(int m) const;
+  /// Warns of components that are wider than the periodic box.
+  void warn_of_overlap() const;
   /// Longest edge at update().
   double longest_edge() const { return pieces.longest_edge(); }
   /// Unwrapped coordinates of all vertices at the last update(), [vertices][3]: each connected

@@ -98,4 +98,24 @@ output = run(PLAIN.format(fixes="fix 1 points nve").replace("run             10\
              "minimize 0 0 5 10\n")
 claim("no warning in a minimization", WARNING not in output)
 
+# === Wider than the box
+
+WIDE = """
+units           lj
+atom_style      membrane_cp
+region          box block -2 2 -2 2 -2 2
+create_box      1 box angle/types 1
+create_membrane 1 {shape}
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0
+run             0
+"""
+for ranks in (1, 2):
+    output = run(WIDE.format(shape="sphere 3 3.0"), ranks=ranks)
+    said = [line for line in output.split("\n") if "overlaps its own images" in line]
+    claim(f"{ranks} rank(s): a vesicle wider than the periodic box is warned of in x, y and z",
+          len(said) == 3 and "Membrane 1 spans 1.5 of the periodic box in x" in said[0], said[:1])
+for shape in ("sphere 3 1.9", "plane 8 8", "cylinder 16 16 1.5 z"):
+    claim(f"{shape}: no such warning", "overlaps" not in run(WIDE.format(shape=shape)))
+
 finish()
