@@ -76,40 +76,47 @@ std::string format_by_first_word(std::string_view content)
   return "";
 }
 
+struct Format {
+  const char *name;
+  PolygonSoup (*read)(const std::string &, std::string_view);
+};
+
+const Format &format_named(const std::string &path, const std::string &name)
+{
+  static const Format formats[] = {{"off", read_off}, {"ply", read_ply}, {"obj", read_obj},
+                                   {"stl", read_stl}, {"vtp", read_vtp}, {"tsi", read_tsi},
+                                   {"mesh", read_hd}};
+  for (const Format &format : formats)
+    if (name == format.name) return format;
+  mesh_file_error(path, 0,
+                  "unknown extension " + quoted(name) +
+                      "; a mesh file must be named *.off, *.ply, *.obj, *.stl, *.vtp, *.tsi or *.mesh");
+}
+
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
 
+TriangleMesh Membrane_NS::parse_mesh(const std::string &path, std::string_view content,
+                                     const PeriodicBox &box, MeshFileReport &report)
+{
+  const std::string name = extension(path);
+  const Format &format = format_named(path, name);
+  if (content.empty()) mesh_file_error(path, 0, "the file is empty; export the mesh again");
+  if (content.substr(0, 3) == "\xEF\xBB\xBF" && name != "stl")
+    content.remove_prefix(3);    // UTF-8 mark at the beginning of a text
+  const std::string found = format_by_first_word(content);
+  if (!found.empty() && found != name && name != "stl")
+    mesh_file_error(path, 0,
+                    "the content looks like ." + found + ", not like ." + name + "; rename the file");
+  return assemble(path, format.read(path, content), box, report);
+}
+
 TriangleMesh Membrane_NS::read_mesh(const std::string &path, const PeriodicBox &box,
                                     MeshFileReport &report)
 {
-  using Reader = PolygonSoup (*)(const std::string &, std::string_view);
-  struct Format {
-    const char *name;
-    Reader read;
-  };
-  constexpr Format formats[] = {{"off", read_off}, {"ply", read_ply}, {"obj", read_obj},
-                                {"stl", read_stl}, {"vtp", read_vtp}, {"tsi", read_tsi},
-                                {"mesh", read_hd}};
-
-  const std::string wanted = extension(path);
-  for (const Format &format : formats) {
-    if (wanted != format.name) continue;
-    const std::string file = read_whole_file(path);
-    std::string_view content = file;
-    if (content.empty()) mesh_file_error(path, 0, "the file is empty; export the mesh again");
-    if (content.substr(0, 3) == "\xEF\xBB\xBF" && wanted != "stl")
-      content.remove_prefix(3);    // UTF-8 mark at the beginning of a text
-    const std::string found = format_by_first_word(content);
-    if (!found.empty() && found != wanted && wanted != "stl")
-      mesh_file_error(path, 0,
-                      "the content looks like ." + found + ", not like ." + wanted +
-                          "; rename the file");
-    return assemble(path, format.read(path, content), box, report);
-  }
-  mesh_file_error(path, 0,
-                  "unknown extension " + quoted(wanted) +
-                      "; a mesh file must be named *.off, *.ply, *.obj, *.stl, *.vtp, *.tsi or *.mesh");
+  format_named(path, extension(path));    // before anything large is read in vain
+  return parse_mesh(path, read_whole_file(path), box, report);
 }
 
 TriangleMesh Membrane_NS::read_mesh(const std::string &path)

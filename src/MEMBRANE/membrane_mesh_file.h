@@ -17,6 +17,7 @@
 #include "membrane_mesh_soup.h"
 
 #include <string>
+#include <string_view>
 
 namespace Membrane_NS {
 
@@ -42,6 +43,10 @@ TriangleMesh read_mesh(const std::string &path, const PeriodicBox &box, MeshFile
 
 /// The same outside of a box, without a report.
 TriangleMesh read_mesh(const std::string &path);
+
+/// The same of a file that has been read: `path` names the format, and the file in messages.
+TriangleMesh parse_mesh(const std::string &path, std::string_view content, const PeriodicBox &box,
+                        MeshFileReport &report);
 
 }    // namespace Membrane_NS
 

@@ -183,8 +183,10 @@ class Body {
 
   [[noreturn]] void fail(const std::string &problem) const
   {
+    const bool is_known = element_->name == "vertex" || element_->name == "face";
     mesh_file_error(path_, storage_ == Storage::TEXT ? text_.line() : 0,
-                    element_->name.substr(0, 24) + " " + std::to_string(index_) + " " + problem);
+                    (is_known ? element_->name : quoted(element_->name)) + " " + std::to_string(index_) + " " +
+                        problem);
   }
 
  private:
