@@ -17,6 +17,7 @@
 
 // Files of programs that move triangulated surfaces by Monte Carlo steps: FreeDTS and TS2CG, hd
 
+#include "membrane_mesh_readers.h"
 #include "membrane_mesh_text.h"
 
 #include <algorithm>

@@ -17,6 +17,7 @@
 
 #include "membrane_mesh_file.h"
 
+#include "membrane_mesh_readers.h"
 #include "membrane_mesh_text.h"
 
 #include <algorithm>

@@ -15,6 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
+#include "membrane_mesh_readers.h"
 #include "membrane_mesh_text.h"
 
 #include "membrane_mesh_bytes.h"

@@ -14,7 +14,7 @@
 #ifndef LMP_MEMBRANE_MESH_TEXT_H
 #define LMP_MEMBRANE_MESH_TEXT_H
 
-#include "membrane_mesh_soup.h"
+#include "membrane_triangle_mesh.h"
 
 #include <cstddef>
 #include <string>
@@ -23,18 +23,7 @@
 
 namespace Membrane_NS {
 
-// What the readers of mesh files share; read_mesh() in membrane_mesh_file.h is the way in.
-
-// === The readers, one per format
-// `content` is the whole file, `path` its name for messages. All throw MeshError.
-
-PolygonSoup read_off(const std::string &path, std::string_view content);
-PolygonSoup read_ply(const std::string &path, std::string_view content);
-PolygonSoup read_obj(const std::string &path, std::string_view content);
-PolygonSoup read_stl(const std::string &path, std::string_view content);
-PolygonSoup read_vtp(const std::string &path, std::string_view content);
-PolygonSoup read_tsi(const std::string &path, std::string_view content);
-PolygonSoup read_hd(const std::string &path, std::string_view content);
+// What the readers and writers of mesh files share.
 
 // === Messages
 

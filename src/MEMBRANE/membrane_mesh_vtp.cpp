@@ -16,6 +16,7 @@
 ------------------------------------------------------------------------- */
 
 #include "membrane_mesh_bytes.h"
+#include "membrane_mesh_readers.h"
 #include "membrane_mesh_text.h"
 
 #include <cmath>

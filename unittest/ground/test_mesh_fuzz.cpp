@@ -145,7 +145,8 @@ std::string name_of(const testing::TestParamInfo<const char *> &info)
 
 }    // namespace
 
-// MEMBRANE_FUZZ_SEED begins elsewhere; the content that fails is kept.
+// With MEMBRANE_LONG a million mutations a format; MEMBRANE_FUZZ_SEED begins elsewhere. The content
+// that fails is kept.
 
 TEST_P(MeshFuzz, MutationsGiveAMeshOrAMeshError)
 {
