@@ -42,8 +42,9 @@ using Membrane_NS::TriangleMesh;
 /* ---------------------------------------------------------------------- */
 
 CreateMembrane::CreateMembrane(LAMMPS *lmp) :
-    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), first_molecule(0), last_molecule(0),
-    mass(1.0), interpolated(false), flip(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
+    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), first_molecule(0),
+    last_molecule(0), mass(1.0), interpolated(false),
+    flip(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
 {
 }
 
@@ -100,10 +101,11 @@ void CreateMembrane::command(int narg, char **arg)
     utils::logmesg(lmp, "Created {}: {} control points, {} faces\n", names, mesh.points.size(),
                    mesh.faces.size());
     if (!inside_out.empty())
-      error->warning(FLERR,
-                     "create_membrane {}: {} inside out, faces run clockwise as seen from outside, which "
-                     "changes the sign of c0 and of pressure; flip yes turns the faces",
-                     shape == "file" ? path : shape, inside_out);
+      error->warning(
+          FLERR,
+          "create_membrane {}: {} inside out, faces run clockwise as seen from outside, which "
+          "changes the sign of c0 and of pressure; flip yes turns the faces",
+          shape == "file" ? path : shape, inside_out);
   }
 }
 

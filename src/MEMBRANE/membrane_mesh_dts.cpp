@@ -108,10 +108,11 @@ PolygonSoup Membrane_NS::read_tsi(const std::string &path, std::string_view cont
     const bool is_vertex = section == "vertex", is_triangle = section == "triangle";
     const bool is_field = section == "vector_fields";
     if (!is_vertex && !is_triangle && !is_field && section != "inclusion" && section != "exclusion")
-      text.fail(begun ? "found " + quoted(section) +
-                        " where a section vertex, triangle, inclusion or exclusion should begin: the "
-                        "count of the section before may be wrong; export it again"
-                      : "it does not begin with the word version; is this a file of FreeDTS or TS2CG?");
+      text.fail(
+          begun ? "found " + quoted(section) +
+                  " where a section vertex, triangle, inclusion or exclusion should begin: the "
+                  "count of the section before may be wrong; export it again"
+                : "it does not begin with the word version; is this a file of FreeDTS or TS2CG?");
     if (text.size() < 2)
       text.fail("the count after " + quoted(section) + " is missing; export it again");
     int count = text.count(1);
@@ -136,8 +137,9 @@ PolygonSoup Membrane_NS::read_hd(const std::string &path, std::string_view conte
   MeshText text(path, content, '\0');
   if (!text.next_line() || text[0] != "3D" || text.size() < 3 || text[1] != "saved" ||
       text[2] != "surface")
-    text.fail("it does not begin with the words 3D saved surface, as .mesh files of the program hd do; "
-              "export other meshes as OFF or PLY");
+    text.fail(
+        "it does not begin with the words 3D saved surface, as .mesh files of the program hd do; "
+        "export other meshes as OFF or PLY");
   PolygonSoup soup;
   NumberedVertices vertices(soup);
   Eigen::Matrix3d lattice;

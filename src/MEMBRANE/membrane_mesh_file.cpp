@@ -89,9 +89,10 @@ const Format &format_named(const std::string &path, const std::string &name)
                                    {"mesh", read_hd}};
   for (const Format &format : formats)
     if (name == format.name) return format;
-  mesh_file_error(path, 0,
-                  "unknown extension " + quoted(name) +
-                      "; a mesh file must be named *.off, *.ply, *.obj, *.stl, *.vtp, *.tsi or *.mesh");
+  mesh_file_error(
+      path, 0,
+      "unknown extension " + quoted(name) +
+          "; a mesh file must be named *.off, *.ply, *.obj, *.stl, *.vtp, *.tsi or *.mesh");
 }
 
 }    // namespace
@@ -108,8 +109,8 @@ TriangleMesh Membrane_NS::parse_mesh(const std::string &path, std::string_view c
     content.remove_prefix(3);    // UTF-8 mark at the beginning of a text
   const std::string found = format_by_first_word(content);
   if (!found.empty() && found != name && name != "stl")
-    mesh_file_error(path, 0,
-                    "the content looks like ." + found + ", not like ." + name + "; rename the file");
+    mesh_file_error(
+        path, 0, "the content looks like ." + found + ", not like ." + name + "; rename the file");
   return assemble(path, format.read(path, content), box, report);
 }
 

@@ -29,9 +29,10 @@ void take_header(MeshText &text)
 {
   const size_t keyword = text[0].find("OFF");
   if (keyword == std::string_view::npos)
-    text.fail("it begins with " + quoted(text[0]) +
-              ", neither with the word OFF nor with the counts of vertices and faces; is this an OFF "
-              "file?");
+    text.fail(
+        "it begins with " + quoted(text[0]) +
+        ", neither with the word OFF nor with the counts of vertices and faces; is this an OFF "
+        "file?");
   const std::string_view prefix = text[0].substr(0, keyword);
   if (prefix.find_first_not_of("STCN") != std::string_view::npos)
     text.fail("cannot read the OFF variant " + quoted(text[0]) +
@@ -57,8 +58,7 @@ PolygonSoup Membrane_NS::read_off(const std::string &path, std::string_view cont
 {
   MeshText text(path, content, '#');
   long long counts;
-  if (!text.next_line())
-    text.fail("it has comments only; is this an OFF file?");
+  if (!text.next_line()) text.fail("it has comments only; is this an OFF file?");
   if (text.size() < 2 || !parse_number(text[0], counts) || !parse_number(text[1], counts))
     take_header(text);
   const int num_points = text.count(0), num_faces = text.count(1);
@@ -79,8 +79,9 @@ PolygonSoup Membrane_NS::read_off(const std::string &path, std::string_view cont
     const long long corners = text.integer(0);
     check_polygon(text, corners);
     if (text.size() <= corners)
-      text.fail("a face needs " + std::to_string(corners) + " corners as its first number says, there are " +
-                std::to_string(text.size() - 1) + "; correct the line");
+      text.fail("a face needs " + std::to_string(corners) +
+                " corners as its first number says, there are " + std::to_string(text.size() - 1) +
+                "; correct the line");
     for (int k = 1; k <= corners; ++k)
       soup.corners.push_back(checked_corner(text, text.integer(k), num_points));
     soup.end_polygon();

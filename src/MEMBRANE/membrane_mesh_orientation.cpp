@@ -50,8 +50,8 @@ std::vector<double> Membrane_NS::enclosed_volumes(const Topology &topology,
   }
 
   std::vector<double> volumes(topology.num_components(), 0.0);
-  const Eigen::Matrix3d to_fraction =
-      mesh.is_periodic() ? Eigen::Matrix3d(mesh.lattice.inverse()) : Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d to_fraction = mesh.is_periodic() ? Eigen::Matrix3d(mesh.lattice.inverse())
+                                                         : Eigen::Matrix3d::Zero();
   for (const Face &face : mesh.faces) {
     double &volume = volumes[topology.component(face[0])];
     volume += x[face[0]].dot(x[face[1]].cross(x[face[2]])) / 6.0;

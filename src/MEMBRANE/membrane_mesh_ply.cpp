@@ -186,8 +186,8 @@ class Body {
   {
     const bool is_known = element_->name == "vertex" || element_->name == "face";
     mesh_file_error(path_, storage_ == Storage::TEXT ? text_.line() : 0,
-                    (is_known ? element_->name : quoted(element_->name)) + " " + std::to_string(index_) + " " +
-                        problem);
+                    (is_known ? element_->name : quoted(element_->name)) + " " +
+                        std::to_string(index_) + " " + problem);
   }
 
  private:

@@ -61,18 +61,21 @@ std::string MeshFileReport::summary() const
   auto counted = [](int n, const std::string &one, const std::string &many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);
   };
-  std::string text = counted(vertices, "vertex", "vertices") + ", " + counted(faces, "face", "faces");
+  std::string text =
+      counted(vertices, "vertex", "vertices") + ", " + counted(faces, "face", "faces");
   const char *separator = "; ";
   auto tell = [&](int n, const char *one, const char *many) {
     if (n == 0) return;
     text += separator + counted(n, one, many);
     separator = ", ";
   };
-  tell(joined, "vertex joined with another at its place", "vertices joined with others at their place");
+  tell(joined, "vertex joined with another at its place",
+       "vertices joined with others at their place");
   tell(collapsed, "face without area left out", "faces without area left out");
   tell(cut, "polygon cut into triangles", "polygons cut into triangles");
   tell(separated, "vertex doubled where surfaces touch", "vertices doubled where surfaces touch");
-  tell(turned, "face turned as the others of its surface", "faces turned as the others of their surface");
+  tell(turned, "face turned as the others of its surface",
+       "faces turned as the others of their surface");
   return text;
 }
 
@@ -89,7 +92,8 @@ class Assembly {
  public:
   Assembly(const std::string &path, PolygonSoup &soup, const PeriodicBox &box,
            MeshFileReport &report) :
-      path_(path), soup_(soup), report_(report)
+      path_(path),
+      soup_(soup), report_(report)
   {
     mesh_.lattice = box.lattice;
     mesh_.periodic = box.periodic;
@@ -140,7 +144,8 @@ class Assembly {
   }
   std::string edge_name(int half_edge) const
   {
-    return "edge " + vertex_name(corner(half_edge)) + " - " + vertex_name(corner(other_end(half_edge)));
+    return "edge " + vertex_name(corner(half_edge)) + " - " +
+        vertex_name(corner(other_end(half_edge)));
   }
 
   void cut_polygons();
@@ -201,8 +206,7 @@ void Assembly::check_box() const
   bool crosses[3] = {false, false, false};
   for (const Face &face : mesh_.faces)
     for (int i = 0; i < 3; ++i) {
-      const Vector3d edge =
-          to_fraction * (mesh_.points[face[(i + 1) % 3]] - mesh_.points[face[i]]);
+      const Vector3d edge = to_fraction * (mesh_.points[face[(i + 1) % 3]] - mesh_.points[face[i]]);
       for (int k = 0; k < 3; ++k) crosses[k] = crosses[k] || std::fabs(edge[k]) > 0.5;
     }
   constexpr double SAME = 1e-5;    // programs print six digits after the point
@@ -272,8 +276,8 @@ void Assembly::check_edge(const std::vector<int> &half_edges) const
              " are duplicates; remove one, or both if nothing else is there");
     }
   if (half_edges.size() > 2)
-    fail(edge_name(half_edges[0]) + " belongs to " + std::to_string(half_edges.size()) + " faces (" +
-         face_name(f) + ", " + face_name(g) +
+    fail(edge_name(half_edges[0]) + " belongs to " + std::to_string(half_edges.size()) +
+         " faces (" + face_name(f) + ", " + face_name(g) +
          " among them): the mesh is not a manifold; split or remove faces there");
 }
 
@@ -342,7 +346,8 @@ void Assembly::make_consistent()
           stack.push_back(g);
         } else if (reversed_[g] != reversed) {
           fail("the surface with " + face_name(g) +
-               " has one side only, as a Moebius strip: its faces cannot be oriented; cut it open and "
+               " has one side only, as a Moebius strip: its faces cannot be oriented; cut it open "
+               "and "
                "join it without the twist");
         }
       }
@@ -379,8 +384,12 @@ void Assembly::number_vertices(const std::vector<int> &joined_with)
 void Assembly::choose_sides()
 {
   Topology::Labels labels;
-  labels.vertex = [this](int v) { return vertex_name(v); };
-  labels.face = [this](int f) { return face_name(f); };
+  labels.vertex = [this](int v) {
+    return vertex_name(v);
+  };
+  labels.face = [this](int f) {
+    return face_name(f);
+  };
   Topology topology;
   try {
     topology = Topology(static_cast<int>(mesh_.points.size()), mesh_.faces, labels);

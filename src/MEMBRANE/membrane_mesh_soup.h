@@ -32,8 +32,8 @@ struct PeriodicBox {
     number of pieces. */
 struct PolygonSoup {
   std::vector<Eigen::Vector3d> points;
-  std::vector<int> corners;          ///< of all polygons, one after the other
-  std::vector<size_t> ends;          ///< polygon i ends before corner ends[i]
+  std::vector<int> corners;                  ///< of all polygons, one after the other
+  std::vector<size_t> ends;                  ///< polygon i ends before corner ends[i]
   std::optional<Eigen::Matrix3d> lattice;    ///< the periodic box that the file states
   /// How users of the format number vertices and faces; -1: they do not, a message tells the place.
   int first_number = 0;
@@ -51,11 +51,11 @@ struct PolygonSoup {
 /// What a file had, and what was done to make a mesh of it.
 struct MeshFileReport {
   int vertices = 0, faces = 0;    // in the file
-  int joined = 0;       // vertices that were another one's double
-  int cut = 0;          // faces with more than 3 corners
-  int collapsed = 0;    // faces left out since they have no area: a corner twice
-  int separated = 0;    // doubles made of vertices in which surfaces touch
-  int turned = 0;       // faces whose orientation was not that of their surface
+  int joined = 0;                 // vertices that were another one's double
+  int cut = 0;                    // faces with more than 3 corners
+  int collapsed = 0;              // faces left out since they have no area: a corner twice
+  int separated = 0;              // doubles made of vertices in which surfaces touch
+  int turned = 0;                 // faces whose orientation was not that of their surface
 
   /// One line without the name of the file.
   std::string summary() const;

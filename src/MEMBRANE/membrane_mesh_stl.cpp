@@ -35,7 +35,8 @@ constexpr size_t BINARY_HEADER = 84, BINARY_FACET = 50;
 /// A facet of the last points: each one has its own.
 void add_facet(PolygonSoup &soup, int corners)
 {
-  for (int k = corners; k > 0; --k) soup.corners.push_back(static_cast<int>(soup.points.size()) - k);
+  for (int k = corners; k > 0; --k)
+    soup.corners.push_back(static_cast<int>(soup.points.size()) - k);
   soup.end_polygon();
 }
 

@@ -27,7 +27,8 @@ using namespace Membrane_NS;
 
 namespace {
 
-constexpr const char *CURE = "; save it in ParaView with Data Mode Ascii, or Binary and Compressor Type None";
+constexpr const char *CURE =
+    "; save it in ParaView with Data Mode Ascii, or Binary and Compressor Type None";
 
 // === XML, as much of it as VTK writes
 
@@ -117,7 +118,8 @@ class Xml {
         continue;
       }
       const std::string key(word("= \t\r\n/>"));
-      if (content_[position_] != '=') fail("attribute " + quoted(key) + " has no value; export it again");
+      if (content_[position_] != '=')
+        fail("attribute " + quoted(key) + " has no value; export it again");
       ++position_;
       const char quote = position_ < content_.size() ? content_[position_] : ' ';
       if (quote != '"' && quote != '\'')
@@ -167,8 +169,7 @@ struct Encoding {
   bool big_endian = false, long_header = false, compressed = false;
 };
 
-template <typename T>
-std::vector<double> numbers_of(std::string_view bytes, bool big_endian)
+template <typename T> std::vector<double> numbers_of(std::string_view bytes, bool big_endian)
 {
   std::vector<double> values(bytes.size() / sizeof(T));
   for (size_t i = 0; i < values.size(); ++i)
@@ -213,15 +214,15 @@ std::vector<double> read_array(const std::string &path, const Xml &xml, const Ta
     if (encoding.compressed) xml.fail(std::string("its arrays are compressed") + CURE);
     return read_binary(xml, attribute("type"), encoding);
   }
-  if (format != "ascii")
-    xml.fail("its arrays are in the format " + quoted(format) + CURE);
+  if (format != "ascii") xml.fail("its arrays are in the format " + quoted(format) + CURE);
   std::vector<double> values;
   MeshText text(path, xml.text(), '\0');
   while (text.next_line())
     for (int i = 0; i < text.size(); ++i) {
       double value;
       if (!parse_number(text[i], value))
-        xml.fail(quoted(text[i]) + " in an array is not a number; correct it or export the mesh again");
+        xml.fail(quoted(text[i]) +
+                 " in an array is not a number; correct it or export the mesh again");
       values.push_back(value);
     }
   return values;
@@ -235,7 +236,8 @@ int whole_number(const Xml &xml, double value, double limit, const char *what)
     std::string number;
     append_number(number, value);
     xml.fail(std::string(what) + " " + number + " is not an integer from 0 to below " +
-             std::to_string(static_cast<long long>(limit)) + "; correct it or export the mesh again");
+             std::to_string(static_cast<long long>(limit)) +
+             "; correct it or export the mesh again");
   }
   return static_cast<int>(value);
 }
@@ -255,13 +257,15 @@ void add_cells(const Xml &xml, const Cells &cells, int first_point, int num_poin
   size_t at = 0;
   std::vector<int> corners;
   for (double offset : cells.offsets) {
-    const size_t end = whole_number(xml, offset, static_cast<double>(cells.connectivity.size()) + 1.0,
-                                    "the end of a polygon in its list of corners");
+    const size_t end =
+        whole_number(xml, offset, static_cast<double>(cells.connectivity.size()) + 1.0,
+                     "the end of a polygon in its list of corners");
     if (end < at + 3)
       xml.fail("a polygon has fewer than 3 corners; correct it or export the mesh again");
     corners.clear();
     for (; at < end; ++at)
-      corners.push_back(first_point + whole_number(xml, cells.connectivity[at], num_points, "corner"));
+      corners.push_back(first_point +
+                        whole_number(xml, cells.connectivity[at], num_points, "corner"));
     if (strips) {
       soup.add_strip(corners);
     } else {
@@ -315,7 +319,8 @@ PolygonSoup Membrane_NS::read_vtp(const std::string &path, std::string_view cont
   std::string section;
   bool complete = false;
   while (!complete) {
-    if (!xml.next(tag)) xml.fail("the file ends before </VTKFile>: it is truncated; export it again");
+    if (!xml.next(tag))
+      xml.fail("the file ends before </VTKFile>: it is truncated; export it again");
     complete = tag.name == "/VTKFile";
     if (tag.name == "/Piece") {
       add_piece(xml, piece, soup);

@@ -144,8 +144,8 @@ class Nearby {
   {
     const Triple<int64_t> centre = cell(x);
     for (int i = 0; i < 27 && found < 0; ++i) {
-      const auto range =
-          cells_.equal_range({centre[0] + i / 9 - 1, centre[1] + i / 3 % 3 - 1, centre[2] + i % 3 - 1});
+      const auto range = cells_.equal_range(
+          {centre[0] + i / 9 - 1, centre[1] + i / 3 % 3 - 1, centre[2] + i % 3 - 1});
       for (auto it = range.first; it != range.second; ++it)
         if ((it->second.x - x).norm() <= tolerance_) found = it->second.vertex;
     }

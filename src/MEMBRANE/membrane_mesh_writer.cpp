@@ -221,9 +221,10 @@ void Membrane_NS::write_tsi(const std::string &path, const TriangleMesh &mesh,
   check(path, mesh, fields);
   const Vector3d box = mesh.lattice.diagonal();
   if (Eigen::Matrix3d(box.asDiagonal()) != mesh.lattice)
-    mesh_file_error(path, 0,
-                    "not written: a TSI file has a box with right angles, and this one is triclinic; "
-                    "write another format");
+    mesh_file_error(
+        path, 0,
+        "not written: a TSI file has a box with right angles, and this one is triclinic; "
+        "write another format");
   std::string text = "version 1.1\nbox ";
   append_line(text, box);
   text += "\nvertex " + std::to_string(mesh.points.size()) + "\n";

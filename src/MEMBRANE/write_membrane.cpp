@@ -18,10 +18,10 @@
 #include "write_membrane.h"
 
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_tessellation.h"
+#include "mesh_distributed.h"
 #include "update.h"
 
 #include <algorithm>

@@ -203,7 +203,8 @@ TEST(MeshSoup, MembranesThatTouchStayApart)
 
 TEST(MeshSoup, MembranesThatTouchAlongAnEdgeAreAnErrorThatNamesIt)
 {
-  const TriangleMesh left = octahedron(), right = moved(left, {1.0, 1.0, 0.0});    // share two vertices
+  const TriangleMesh left = octahedron(),
+                     right = moved(left, {1.0, 1.0, 0.0});    // share two vertices
   MeshFileReport report;
   EXPECT_EQ(mesh_of(soup_of(together(left, right)), report).points.size(), 12u);
   EXPECT_THAT(error_of(torn(together(left, right))),
@@ -219,7 +220,8 @@ TEST(MeshSoup, APlaneWithBothItsEndsInTheFileContinuesThroughTheBox)
     for (int j = 0; j < 5; ++j) soup.points.emplace_back(i - 2.0, j - 2.0, 0.1);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
-      soup.corners.insert(soup.corners.end(), {5 * i + j, 5 * i + j + 5, 5 * i + j + 6, 5 * i + j + 1});
+      soup.corners.insert(soup.corners.end(),
+                          {5 * i + j, 5 * i + j + 5, 5 * i + j + 6, 5 * i + j + 1});
       soup.end_polygon();
     }
   MeshFileReport report;
@@ -228,7 +230,9 @@ TEST(MeshSoup, APlaneWithBothItsEndsInTheFileContinuesThroughTheBox)
   EXPECT_EQ(mesh.faces.size(), 32u);
   EXPECT_EQ(report.joined, 9);
   EXPECT_TRUE(std::isnan(volumes(mesh)[0]));
-  EXPECT_THAT(error_of(soup), AllOf(HasSubstr("is a boundary, one of 16 such edges"), HasSubstr("close the holes")));
+  EXPECT_THAT(
+      error_of(soup),
+      AllOf(HasSubstr("is a boundary, one of 16 such edges"), HasSubstr("close the holes")));
 }
 
 TEST(MeshSoup, AClosedSurfaceThatTouchesItsImagesStaysOne)
@@ -260,10 +264,13 @@ TEST(MeshSoup, QuadsAreCutAlongTheShorterDiagonalWithinThem)
       for (int v : face) ++uses[v];
     return uses;    // two for the ends of the diagonal
   };
-  EXPECT_EQ(first_cut({{0, 0, 0}, {3, 1, 0}, {4, 4, 0}, {1, 3, 0}}), (std::vector<int>{1, 2, 1, 2}));
-  EXPECT_EQ(first_cut({{3, 1, 0}, {4, 4, 0}, {1, 3, 0}, {0, 0, 0}}), (std::vector<int>{2, 1, 2, 1}));
+  EXPECT_EQ(first_cut({{0, 0, 0}, {3, 1, 0}, {4, 4, 0}, {1, 3, 0}}),
+            (std::vector<int>{1, 2, 1, 2}));
+  EXPECT_EQ(first_cut({{3, 1, 0}, {4, 4, 0}, {1, 3, 0}, {0, 0, 0}}),
+            (std::vector<int>{2, 1, 2, 1}));
   // concave at (1, 1): the long diagonal is the one within
-  EXPECT_EQ(first_cut({{0, 0, 0}, {3, 0, 0}, {1, 1, 0}, {0, 3, 0}}), (std::vector<int>{2, 1, 2, 1}));
+  EXPECT_EQ(first_cut({{0, 0, 0}, {3, 0, 0}, {1, 1, 0}, {0, 3, 0}}),
+            (std::vector<int>{2, 1, 2, 1}));
 }
 
 TEST(MeshSoup, PolygonsKeepTheirAreaAndOrientation)
@@ -315,8 +322,7 @@ TEST(MeshSoup, FacesInMixedOrientationAreTurnedOutward)
       std::swap(mixed.faces[f][1], mixed.faces[f][2]);
     for (bool start_inward : {false, true}) {
       MeshFileReport report;
-      const TriangleMesh mesh =
-          mesh_of(soup_of(start_inward ? reversed(mixed) : mixed), report);
+      const TriangleMesh mesh = mesh_of(soup_of(start_inward ? reversed(mixed) : mixed), report);
       EXPECT_GT(volumes(mesh)[0], 4.0);
       EXPECT_EQ(report.turned, start_inward ? 320 - n : n);
     }
@@ -337,8 +343,8 @@ TEST(MeshSoup, EachSurfaceIsOrientedByItself)
 {
   TriangleMesh mixed = octahedron();
   std::swap(mixed.faces[3][0], mixed.faces[3][1]);
-  const TriangleMesh three = together(together(mixed, moved(reversed(octahedron()), {3, 0, 0})),
-                                      moved(mixed, {6, 0, 0}));
+  const TriangleMesh three =
+      together(together(mixed, moved(reversed(octahedron()), {3, 0, 0})), moved(mixed, {6, 0, 0}));
   MeshFileReport report;
   const std::vector<double> v = volumes(mesh_of(soup_of(three), report));
   ASSERT_EQ(v.size(), 3u);
@@ -368,7 +374,9 @@ TEST(MeshSoup, ASurfaceWithOneSideIsAnError)
   const int n = 8;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) soup.points.emplace_back(i, j, 0.1 * i * j);
-  auto at = [n](int i, int j) { return i == n ? (2 * n - j) % n : n * i + j % n; };
+  auto at = [n](int i, int j) {
+    return i == n ? (2 * n - j) % n : n * i + j % n;
+  };
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       soup.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
@@ -430,8 +438,10 @@ TEST(MeshSoup, WhatIsWrittenForOtherProgramsIsReadAgain)
       EXPECT_EQ(report.turned, 0);
       for (size_t f = 0; f < mesh.faces.size(); ++f)
         for (int k = 0; k < 3; ++k)
-          ASSERT_LT(again.nearest_image(again.points[again.faces[f][k]] - mesh.points[mesh.faces[f][k]])
-                        .norm(), 1e-14);
+          ASSERT_LT(
+              again.nearest_image(again.points[again.faces[f][k]] - mesh.points[mesh.faces[f][k]])
+                  .norm(),
+              1e-14);
     }
 }
 
@@ -453,6 +463,7 @@ TEST(MeshSoup, AMeshThatCrossesTheBoxOfItsFileNeedsThatBox)
     return "no error";
   };
   EXPECT_EQ(message(box), "no error");
-  EXPECT_THAT(message(cube(4.0)), AllOf(HasSubstr("periodic box in x, which is 3 long"), HasSubstr("is 4 there")));
+  EXPECT_THAT(message(cube(4.0)),
+              AllOf(HasSubstr("periodic box in x, which is 3 long"), HasSubstr("is 4 there")));
   EXPECT_THAT(message(PeriodicBox()), HasSubstr("is not periodic"));
 }
