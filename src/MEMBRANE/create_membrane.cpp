@@ -24,6 +24,7 @@
 #include "error.h"
 #include "force.h"
 #include "membrane_mesh_file.h"
+#include "membrane_mesh_orientation.h"
 #include "membrane_mesh_shapes.h"
 #include "memory.h"
 #include "mesh_box.h"
@@ -41,8 +42,9 @@ using Membrane_NS::TriangleMesh;
 /* ---------------------------------------------------------------------- */
 
 CreateMembrane::CreateMembrane(LAMMPS *lmp) :
-    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), mass(1.0),
-    interpolated(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
+    Command(lmp), type(0), angle_type(1), refine(0), molecule(0), first_molecule(0),
+    last_molecule(0), mass(1.0), interpolated(false),
+    flip(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
 {
 }
 
@@ -73,15 +75,17 @@ void CreateMembrane::command(int narg, char **arg)
     domain->lamda2x(half, centre);
   }
 
+  std::string inside_out;
   try {
     const int used = parse_shape(narg - 1, arg + 1, mesh);
     parse_options(narg - 1 - used, arg + 1 + used);
+    if (shape == "file") read_file(mesh);
 
     for (auto &p : mesh.points)
       for (int k = 0; k < 3; ++k) p[k] = scale[k] * p[k] + (centred ? centre[k] : 0.0);
 
     check_edges(mesh);
-    Membrane_NS::Topology(mesh.points.size(), mesh.faces);
+    inside_out = turn(mesh);
     if (interpolated) mesh = Membrane_NS::interpolate(mesh);
     for (int i = 0; i < refine; ++i) mesh = Membrane_NS::loop_refine(mesh);
   } catch (const MeshError &err) {
@@ -89,9 +93,20 @@ void CreateMembrane::command(int narg, char **arg)
   }
 
   add_atoms(mesh);
-  if (comm->me == 0)
-    utils::logmesg(lmp, "Created membrane {}: {} control points, {} faces\n", molecule,
-                   mesh.points.size(), mesh.faces.size());
+  if (comm->me == 0) {
+    if (!report.empty()) utils::logmesg(lmp, "Read {}: {}\n", path, report);
+    const std::string names = last_molecule > first_molecule
+        ? fmt::format("membranes {} to {}", first_molecule, last_molecule)
+        : fmt::format("membrane {}", first_molecule);
+    utils::logmesg(lmp, "Created {}: {} control points, {} faces\n", names, mesh.points.size(),
+                   mesh.faces.size());
+    if (!inside_out.empty())
+      error->warning(
+          FLERR,
+          "create_membrane {}: {} inside out, faces run clockwise as seen from outside, which "
+          "changes the sign of c0 and of pressure; flip yes turns the faces",
+          shape == "file" ? path : shape, inside_out);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -142,7 +157,7 @@ int CreateMembrane::parse_shape(int narg, char **arg, TriangleMesh &mesh)
     used = 5;
   } else if (shape == "file") {
     need(1);
-    read_file(arg[1], mesh);
+    path = arg[1];
     used = 2;
     centred = false;
   } else
@@ -185,6 +200,9 @@ void CreateMembrane::parse_options(int narg, char **arg)
       if (refine < 0 || refine > 10)
         error->all(FLERR, "create_membrane refine {} must be between 0 and 10", arg[iarg + 1]);
       iarg += 2;
+    } else if (key == "flip") {
+      flip = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      iarg += 2;
     } else if (key == "interpolate") {
       interpolated = utils::logical(FLERR, arg[iarg + 1], false, lmp);
       iarg += 2;
@@ -205,7 +223,7 @@ void CreateMembrane::parse_options(int narg, char **arg)
       error->all(
           FLERR,
           "Unknown create_membrane keyword {}; known are: center, scale, refine, interpolate, "
-          "molecule, mass, face/type",
+          "flip, molecule, mass, face/type",
           key);
   }
   if (angle_type < 1 || angle_type > atom->nangletypes)
@@ -216,17 +234,26 @@ void CreateMembrane::parse_options(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   read on one rank; all ranks fail together
+   read on one rank; all ranks fail together. The file knows nothing of scale: the box is shrunk by it.
 ------------------------------------------------------------------------- */
 
-void CreateMembrane::read_file(const char *path, TriangleMesh &mesh)
+void CreateMembrane::read_file(TriangleMesh &mesh)
 {
+  const auto lattice = mesh.lattice;
+  const auto periodic = mesh.periodic;
   std::string message;
   if (comm->me == 0) {
     try {
-      mesh = Membrane_NS::read_mesh(path);
+      Membrane_NS::PeriodicBox box;
+      box.lattice = Eigen::Vector3d(scale).cwiseInverse().asDiagonal() * lattice;
+      box.periodic = periodic;
+      Membrane_NS::MeshFileReport had;
+      mesh = Membrane_NS::read_mesh(path, box, had);
+      report = had.summary();
     } catch (const MeshError &err) {
       message = err.what();
+    } catch (const std::bad_alloc &) {
+      message = "Mesh file " + path + ": not enough memory; use a coarser mesh";
     }
   }
   int sizes[3] = {(int) message.size(), (int) mesh.points.size(), (int) mesh.faces.size()};
@@ -238,6 +265,36 @@ void CreateMembrane::read_file(const char *path, TriangleMesh &mesh)
   mesh.faces.resize(sizes[2]);
   MPI_Bcast(mesh.points.data(), 3 * sizes[1], MPI_DOUBLE, 0, world);
   MPI_Bcast(mesh.faces.data(), 3 * sizes[2], MPI_INT, 0, world);
+  mesh.lattice = lattice;
+  mesh.periodic = periodic;
+}
+
+/* ----------------------------------------------------------------------
+   with flip, what is inside out is turned, and what has no inside; returns what stays inside out
+------------------------------------------------------------------------- */
+
+std::string CreateMembrane::turn(TriangleMesh &mesh)
+{
+  const Membrane_NS::Topology topology(mesh.points.size(), mesh.faces);
+  const std::vector<double> volumes = Membrane_NS::enclosed_volumes(topology, mesh);
+  if (flip) {
+    std::vector<bool> which;
+    for (double volume : volumes) which.push_back(volume < 0.0 || std::isnan(volume));
+    const int turned = Membrane_NS::turn_components(mesh, topology, which);
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Turned {} of {} faces by flip yes\n", turned, mesh.faces.size());
+    return "";
+  }
+  int inside_out = 0, first = 0;
+  for (int c = topology.num_components() - 1; c >= 0; --c)
+    if (volumes[c] < 0.0) {
+      ++inside_out;
+      first = c;
+    }
+  if (inside_out == 0) return "";
+  if (topology.num_components() == 1) return "the membrane is";
+  return fmt::format("{} of its {} surfaces, the first of them number {}, {}", inside_out,
+                     topology.num_components(), first + 1, inside_out == 1 ? "is" : "are");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -323,7 +380,9 @@ void CreateMembrane::add_atoms(const TriangleMesh &mesh)
     most[1] = MAX(most[1], atom->molecule[i]);
   }
   MPI_Allreduce(most, maximum, 2, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (molecule == 0) molecule = maximum[1] + 1;
+  const Membrane_NS::Topology topology(npoints, mesh.faces);
+  first_molecule = molecule ? molecule : maximum[1] + 1;
+  last_molecule = molecule ? molecule : maximum[1] + topology.num_components();
   const tagint first = maximum[0] + 1;
   if ((bigint) maximum[0] + npoints >= MAXTAGINT)
     error->all(FLERR, "create_membrane: too many atoms for their IDs; build LAMMPS with BIGBIG");
@@ -369,7 +428,7 @@ void CreateMembrane::add_atoms(const TriangleMesh &mesh)
     atom->avec->create_atom(type, x);
     const int i = atom->nlocal - 1;
     atom->tag[i] = first + v;
-    atom->molecule[i] = molecule;
+    atom->molecule[i] = molecule ? molecule : first_molecule + topology.component(v);
     atom->image[i] = image;
     atom->rmass[i] = mass;
     atom->num_angle[i] = stored[v].size();

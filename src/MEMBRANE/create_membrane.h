@@ -27,7 +27,7 @@ CommandStyle(create_membrane,CreateMembrane);
 
 namespace LAMMPS_NS {
 
-/// Makes the control points and faces of one membrane from a shape or a mesh file.
+/// Makes the control points and faces of a membrane from a shape, or of several from a mesh file.
 class CreateMembrane : public Command {
  public:
   CreateMembrane(class LAMMPS *);
@@ -35,16 +35,20 @@ class CreateMembrane : public Command {
 
  private:
   int type, angle_type, refine;
-  tagint molecule;    // 0: one more than the largest
+  tagint molecule;    // of all surfaces; 0: each has its own, from one more than the largest on
+  tagint first_molecule, last_molecule;    // of those that were made
   double mass;
-  bool interpolated;
+  bool interpolated, flip;
   double centre[3], scale[3];
   bool centred;    // whether the shape is to be moved to `centre`
   std::string shape;
+  std::string path;      // of a mesh file
+  std::string report;    // on the first rank: what the file had
 
   int parse_shape(int, char **, Membrane_NS::TriangleMesh &);
   void parse_options(int, char **);
-  void read_file(const char *, Membrane_NS::TriangleMesh &);
+  void read_file(Membrane_NS::TriangleMesh &);
+  std::string turn(Membrane_NS::TriangleMesh &);
   void check_edges(const Membrane_NS::TriangleMesh &);
   void check_inside_box(const Membrane_NS::TriangleMesh &);
   void reserve_angles(int);

@@ -14,27 +14,39 @@
 #ifndef LMP_MEMBRANE_MESH_FILE_H
 #define LMP_MEMBRANE_MESH_FILE_H
 
-#include "membrane_triangle_mesh.h"
+#include "membrane_mesh_soup.h"
 
 #include <string>
+#include <string_view>
 
 namespace Membrane_NS {
 
-/** Read the triangles of a mesh file; its extension names the format.
+/** Read a mesh file; its extension names the format.
 
-    .off  OFF, text; colours and normals (COFF, NOFF, CNOFF) are left out
-    .ply  PLY, text or binary of either byte order; other elements and properties are left out
-    .obj  Wavefront OBJ; `v` and `f` lines, with negative indices; all other lines are left out
-    .stl  STL, text or binary; corners closer than 1e-6 of the diagonal of the bounding box are
-          welded into one vertex, and facets that collapse by this are left out
+    .off   OFF, text, with or without its first word; colours and normals (COFF, NOFF, CNOFF) are
+           left out
+    .ply   PLY, text or binary of either byte order, faces and triangle strips; other elements and
+           properties are left out
+    .obj   Wavefront OBJ; `v` and `f` lines, with negative indices; all other lines are left out
+    .stl   STL, text or binary
+    .vtp   VTK XML PolyData, text or base64 without compression, polygons and strips
+    .tsi   FreeDTS and TS2CG: vertices and triangles; inclusions and exclusions are left out
+    .mesh  the program hd: vertices and triangles; lists of neighbours are left out
 
-    The result is not periodic; vertices keep the order of the file. Corner indices are checked to
-    be in range and coordinates to be finite, the rest is for Topology to check.
+    assemble() in membrane_mesh_soup.h makes a mesh of what the file has, and says what it did. The
+    mesh lives in the box given, and its faces pass Topology; vertices keep the order of the file.
 
     Throws MeshError, one line that names the file, the line where there is one, and the cure: for
-    a file that cannot be read, is truncated or has wrong counts, bad numbers, faces that are not
-    triangles, or no faces at all. */
+    a file that cannot be read, is truncated or has wrong counts, bad numbers, no faces at all, or
+    surfaces that are none. */
+TriangleMesh read_mesh(const std::string &path, const PeriodicBox &box, MeshFileReport &report);
+
+/// The same outside of a box, without a report.
 TriangleMesh read_mesh(const std::string &path);
+
+/// The same of a file that has been read: `path` names the format, and the file in messages.
+TriangleMesh parse_mesh(const std::string &path, std::string_view content, const PeriodicBox &box,
+                        MeshFileReport &report);
 
 }    // namespace Membrane_NS
 

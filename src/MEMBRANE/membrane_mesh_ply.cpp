@@ -15,6 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
+#include "membrane_mesh_readers.h"
 #include "membrane_mesh_text.h"
 
 #include "membrane_mesh_bytes.h"
@@ -183,8 +184,10 @@ class Body {
 
   [[noreturn]] void fail(const std::string &problem) const
   {
+    const bool is_known = element_->name == "vertex" || element_->name == "face";
     mesh_file_error(path_, storage_ == Storage::TEXT ? text_.line() : 0,
-                    element_->name.substr(0, 24) + " " + std::to_string(index_) + " " + problem);
+                    (is_known ? element_->name : quoted(element_->name)) + " " +
+                        std::to_string(index_) + " " + problem);
   }
 
  private:
@@ -259,7 +262,7 @@ void skip_property(Body &body, const Property &property)
   for (int i = 0; i < n; ++i) body.value(property.type);
 }
 
-void read_vertices(const std::string &path, Body &body, const Element &element, TriangleMesh &mesh)
+void read_vertices(const std::string &path, Body &body, const Element &element, PolygonSoup &soup)
 {
   // which coordinate a property is, or -1
 
@@ -289,26 +292,29 @@ void read_vertices(const std::string &path, Body &body, const Element &element, 
     }
     if (!point.allFinite()) body.fail("has a coordinate that is not finite; correct it");
     body.end_item();
-    mesh.points.push_back(point);
+    soup.points.push_back(point);
   }
 }
 
-void read_faces(const std::string &path, Body &body, const Element &element, int num_points,
-                TriangleMesh &mesh)
+/// Number of the property that lists the corners of faces or strips.
+size_t corner_list(const std::string &path, const Element &element)
 {
-  size_t corners = element.properties.size();
   for (size_t p = 0; p < element.properties.size(); ++p) {
     const Property &property = element.properties[p];
     if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
-      corners = p;
+      return p;
   }
-  if (corners == element.properties.size())
-    mesh_file_error(path, 0,
-                    "the header must list the face property vertex_indices; export the mesh again");
+  mesh_file_error(path, 0,
+                  "the header must list the " + element.name +
+                      " property vertex_indices; export the mesh again");
+}
 
+void read_faces(const std::string &path, Body &body, const Element &element, int num_points,
+                PolygonSoup &soup)
+{
+  const size_t corners = corner_list(path, element);
   for (int f = 0; f < element.count; ++f) {
     body.begin_item(element, f);
-    Face face = {0, 0, 0};
     for (size_t p = 0; p < element.properties.size(); ++p) {
       const Property &property = element.properties[p];
       if (p != corners) {
@@ -316,13 +322,44 @@ void read_faces(const std::string &path, Body &body, const Element &element, int
         continue;
       }
       const int n = whole_number(body, body.value(property.count_type), MAX_COUNT, "corner count");
-      if (n != 3)
+      if (n < 3)
         body.fail("has " + std::to_string(n) +
-                  " corners; only triangles are read: triangulate the mesh");
-      for (int &v : face) v = whole_number(body, body.value(property.type), num_points, "corner");
+                  " corners; a face has 3 or more: correct it or export the mesh again");
+      for (int k = 0; k < n; ++k)
+        soup.corners.push_back(whole_number(body, body.value(property.type), num_points, "corner"));
     }
     body.end_item();
-    mesh.faces.push_back(face);
+    soup.end_polygon();
+  }
+}
+
+/// Corner -1 ends a strip and begins another.
+void read_strips(const std::string &path, Body &body, const Element &element, int num_points,
+                 PolygonSoup &soup)
+{
+  const size_t corners = corner_list(path, element);
+  for (int i = 0; i < element.count; ++i) {
+    body.begin_item(element, i);
+    for (size_t p = 0; p < element.properties.size(); ++p) {
+      const Property &property = element.properties[p];
+      if (p != corners) {
+        skip_property(body, property);
+        continue;
+      }
+      const int n = whole_number(body, body.value(property.count_type), MAX_COUNT, "corner count");
+      std::vector<int> strip;
+      for (int k = 0; k < n; ++k) {
+        const double v = body.value(property.type);
+        if (v == -1.0) {
+          soup.add_strip(strip);
+          strip.clear();
+        } else {
+          strip.push_back(whole_number(body, v, num_points, "corner"));
+        }
+      }
+      soup.add_strip(strip);
+    }
+    body.end_item();
   }
 }
 
@@ -342,7 +379,7 @@ void skip_element(Body &body, const Element &element)
    PLY [G. Turk, The PLY Polygon File Format, 1994], in text with each element on a line of its own
 ------------------------------------------------------------------------- */
 
-TriangleMesh Membrane_NS::read_ply(const std::string &path, std::string_view content)
+PolygonSoup Membrane_NS::read_ply(const std::string &path, std::string_view content)
 {
   const Header header = read_header(path, content);
   int num_points = 0;
@@ -350,15 +387,17 @@ TriangleMesh Membrane_NS::read_ply(const std::string &path, std::string_view con
     if (element.name == "vertex") num_points = element.count;
 
   Body body(path, content, header);
-  TriangleMesh mesh;
+  PolygonSoup soup;
   for (const Element &element : header.elements) {
     if (element.name == "vertex")
-      read_vertices(path, body, element, mesh);
+      read_vertices(path, body, element, soup);
     else if (element.name == "face")
-      read_faces(path, body, element, num_points, mesh);
+      read_faces(path, body, element, num_points, soup);
+    else if (element.name == "tristrips")
+      read_strips(path, body, element, num_points, soup);
     else
       skip_element(body, element);
   }
   body.end_file();
-  return mesh;
+  return soup;
 }

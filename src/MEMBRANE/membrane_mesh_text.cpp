@@ -89,22 +89,27 @@ void Membrane_NS::append_number(std::string &text, double value)
 /* ---------------------------------------------------------------------- */
 
 MeshText::MeshText(const std::string &path, std::string_view content, char comment,
-                   std::size_t start, long lines_before) :
+                   std::size_t start, long lines_before, char continuation) :
     path_(path),
-    content_(content), comment_(comment), position_(start), line_(lines_before)
+    content_(content), comment_(comment), continuation_(continuation), position_(start),
+    line_(lines_before)
 {
 }
 
 bool MeshText::next_line()
 {
   words_.clear();
-  while (position_ < content_.size() && words_.empty()) {
+  bool continued = false;
+  while (position_ < content_.size() && (words_.empty() || continued)) {
     ++line_;
     const size_t newline = content_.find('\n', position_);
     std::string_view rest = content_.substr(position_, newline - position_);
     position_ = newline == std::string_view::npos ? content_.size() : newline + 1;
     if (comment_) rest = rest.substr(0, rest.find(comment_));
     constexpr std::string_view blanks = " \t\r\v\f";
+    rest = rest.substr(0, rest.find_last_not_of(blanks) + 1);    // npos + 1 = 0
+    continued = continuation_ && !rest.empty() && rest.back() == continuation_;
+    if (continued) rest.remove_suffix(1);
     while (true) {
       const size_t first = rest.find_first_not_of(blanks);
       if (first == std::string_view::npos) break;
@@ -166,18 +171,17 @@ void MeshText::fail(const std::string &problem) const
 
 /* ---------------------------------------------------------------------- */
 
-void Membrane_NS::check_read_mesh(const std::string &path, const TriangleMesh &mesh)
+int Membrane_NS::checked_corner(const MeshText &text, long long v, int num_points)
 {
-  if (mesh.points.size() > INT_MAX || mesh.faces.size() > INT_MAX / 3)
-    mesh_file_error(path, 0, "the mesh has too many vertices or faces; use a coarser one");
-  if (mesh.faces.empty())
-    mesh_file_error(path, 0, "the mesh has no faces; export it as a triangle mesh");
-  const long long num_points = mesh.points.size();
-  for (size_t f = 0; f < mesh.faces.size(); ++f)
-    for (int v : mesh.faces[f])
-      if (v < 0 || v >= num_points)
-        mesh_file_error(path, 0,
-                        "face " + std::to_string(f) + " has the corner " + std::to_string(v) +
-                            ", but the file has " + std::to_string(num_points) +
-                            " vertices; correct the face");
+  if (v < 0 || v >= num_points)
+    text.fail("corner " + std::to_string(v) + " is not one of the " + std::to_string(num_points) +
+              " vertices, numbered from 0; correct the face");
+  return static_cast<int>(v);
+}
+
+void Membrane_NS::check_polygon(const MeshText &text, long long corners)
+{
+  if (corners < 3)
+    text.fail("a face with " + std::to_string(corners) +
+              " corners; a face has 3 or more: correct it or export the mesh again");
 }

@@ -23,15 +23,7 @@
 
 namespace Membrane_NS {
 
-// What the readers of mesh files share; read_mesh() in membrane_mesh_file.h is the way in.
-
-// === The readers, one per format
-// `content` is the whole file, `path` its name for messages. All throw MeshError.
-
-TriangleMesh read_off(const std::string &path, std::string_view content);
-TriangleMesh read_ply(const std::string &path, std::string_view content);
-TriangleMesh read_obj(const std::string &path, std::string_view content);
-TriangleMesh read_stl(const std::string &path, std::string_view content);
+// What the readers and writers of mesh files share.
 
 // === Messages
 
@@ -53,11 +45,12 @@ void append_number(std::string &text, double value);
 // === Lines of words
 
 /** Text taken line by line. A line ends with \n, and its words are set apart by blanks, tabs or
-    \r. Blank lines are skipped, and so is all that follows the comment character, if not '\0'. */
+    \r. Blank lines are skipped, and so is all that follows the comment character, if not '\0'. A line
+    that ends in the continuation character, if not '\0', goes on in the next one. */
 class MeshText {
  public:
   MeshText(const std::string &path, std::string_view content, char comment, std::size_t start = 0,
-           long lines_before = 0);
+           long lines_before = 0, char continuation = '\0');
 
   /// Go to the next line that has words; false at the end of the file.
   bool next_line();
@@ -86,14 +79,16 @@ class MeshText {
  private:
   std::string path_;
   std::string_view content_;
-  char comment_;
+  char comment_, continuation_;
   std::size_t position_;
   long line_;
   std::vector<std::string_view> words_;
 };
 
-/// The mesh has faces, and their corners are vertices of it; an error otherwise.
-void check_read_mesh(const std::string &path, const TriangleMesh &mesh);
+/// Corner v if it is one of so many vertices, numbered from 0; an error otherwise.
+int checked_corner(const MeshText &text, long long v, int num_points);
+/// An error for a face with fewer than 3 corners.
+void check_polygon(const MeshText &text, long long corners);
 
 }    // namespace Membrane_NS
 

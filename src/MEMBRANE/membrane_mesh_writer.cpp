@@ -215,6 +215,41 @@ void Membrane_NS::write_off(const std::string &path, const TriangleMesh &mesh,
 
 /* ---------------------------------------------------------------------- */
 
+void Membrane_NS::write_tsi(const std::string &path, const TriangleMesh &mesh,
+                            const PointFields &fields)
+{
+  check(path, mesh, fields);
+  const Vector3d box = mesh.lattice.diagonal();
+  if (Eigen::Matrix3d(box.asDiagonal()) != mesh.lattice)
+    mesh_file_error(
+        path, 0,
+        "not written: a TSI file has a box with right angles, and this one is triclinic; "
+        "write another format");
+  std::string text = "version 1.1\nbox ";
+  append_line(text, box);
+  text += "\nvertex " + std::to_string(mesh.points.size()) + "\n";
+  for (size_t v = 0; v < mesh.points.size(); ++v) {
+    Vector3d x = mesh.points[v];
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.periodic[k]) x[k] -= box[k] * std::floor(x[k] / box[k]);
+      if (mesh.periodic[k] && x[k] >= box[k]) x[k] = 0.0;    // by rounding
+    }
+    text += std::to_string(v) + " ";
+    append_line(text, x);
+    text += "\n";
+  }
+  text += "triangle " + std::to_string(mesh.faces.size()) + "\n";
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    text += std::to_string(f);
+    for (int v : mesh.faces[f]) text += ' ' + std::to_string(v);
+    text += '\n';
+  }
+  text += "inclusion 0\n";
+  write_whole_file(path, text);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void Membrane_NS::write_ply(const std::string &path, const TriangleMesh &mesh,
                             const PointFields &fields, PlyFormat format)
 {

@@ -51,6 +51,11 @@ void write_off(const std::string &path, const TriangleMesh &mesh, const PointFie
 void write_ply(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {},
                PlyFormat format = PlyFormat::BINARY);
 
+/** TSI of FreeDTS and TS2CG, which has no place for fields either, see write_off(). Its box has the
+    lattice vectors of the mesh, which must be along x, y and z, and begins at 0: points are moved
+    into it where it is periodic. */
+void write_tsi(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {});
+
 /// VTK XML PolyData for ParaView and OVITO, for drawing: the first field is the active scalar, and
 /// a periodic mesh is cut open.
 void write_vtp(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {});

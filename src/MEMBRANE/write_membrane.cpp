@@ -18,10 +18,10 @@
 #include "write_membrane.h"
 
 #include "comm.h"
-#include "mesh_distributed.h"
 #include "domain.h"
 #include "error.h"
 #include "membrane_tessellation.h"
+#include "mesh_distributed.h"
 #include "update.h"
 
 #include <algorithm>
@@ -114,10 +114,11 @@ void WriteMembrane::parse(int narg, char **arg)
       chosen.push_back(utils::tnumeric(FLERR, arg[iarg + 1], false, lmp));
     } else {
       fields = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-      if (fields && format == Format::OFF)
+      if (fields && !format_has_fields())
         error->all(FLERR,
-                   "write_membrane: a file in OFF format has no place for fields; use the "
-                   "extension ply or vtp");
+                   "write_membrane: a file in {} format has no place for fields; use the "
+                   "extension ply or vtp",
+                   format == Format::OFF ? "OFF" : "TSI");
     }
   }
 }
@@ -131,12 +132,14 @@ void WriteMembrane::parse_format()
     format = Format::OFF;
   else if (extension == "ply")
     format = Format::PLY;
+  else if (extension == "tsi")
+    format = Format::TSI;
   else if (extension == "vtp")
     format = Format::VTP;
   else
     error->all(FLERR,
-               "write_membrane file {} must have the extension off, ply or vtp, which names the "
-               "format",
+               "write_membrane file {} must have the extension off, ply, tsi or vtp, which names "
+               "the format",
                path);
 }
 
@@ -204,10 +207,17 @@ WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
 
   Surface what;
   what.mesh = std::move(cut.mesh);
-  if (fields && format != Format::OFF)
+  if (fields && format_has_fields())
     what.fields = {{"mean_curvature", std::move(cut.mean_curvature)},
                    {"gaussian_curvature", std::move(cut.gaussian_curvature)},
                    {"membrane", std::move(membrane)}};
+
+  // what has a box that begins at 0
+
+  if (format == Format::TSI) {
+    for (auto &point : what.mesh.points) point -= origin;
+    return what;
+  }
 
   // a surface is to look at; the faces of a control mesh are to find their images in the box again
 
@@ -234,6 +244,9 @@ void WriteMembrane::write(const Surface &what) const
       break;
     case Format::PLY:
       Membrane_NS::write_ply(path, what.mesh, what.fields);
+      break;
+    case Format::TSI:
+      Membrane_NS::write_tsi(path, what.mesh);
       break;
     case Format::VTP:
       Membrane_NS::write_vtp(path, what.mesh, what.fields);

@@ -36,7 +36,7 @@ class WriteMembrane : public Command {
 
  private:
   std::string path;
-  enum class Format { OFF, PLY, VTP } format;
+  enum class Format { OFF, PLY, TSI, VTP } format;
   int subdivide;
   bool fields;
   std::vector<tagint> chosen;    // molecule IDs; all membranes if empty
@@ -49,6 +49,7 @@ class WriteMembrane : public Command {
 
   void parse(int, char **);
   void parse_format();
+  bool format_has_fields() const { return format == Format::PLY || format == Format::VTP; }
   Membrane_NS::TriangleMesh control_mesh(const class DistributedMesh &,
                                          std::vector<double> &labels) const;
   Surface surface(const DistributedMesh &) const;

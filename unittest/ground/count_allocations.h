@@ -14,8 +14,8 @@
 #ifndef MEMBRANE_TEST_COUNT_ALLOCATIONS_H
 #define MEMBRANE_TEST_COUNT_ALLOCATIONS_H
 
-// How often memory is asked for, by malloc() or new, where the C library or the sanitizer lets one
-// count. Include in one file of a program only: it replaces malloc().
+// How often memory is asked for, and how much at once, by malloc() or new, where the C library or
+// the sanitizer lets one count. Include in one file of a program only: it replaces malloc().
 
 #include <cstddef>
 #include <cstdlib>
@@ -23,6 +23,13 @@
 namespace Membrane_TEST {
 
 inline long allocations = 0;
+inline std::size_t largest_piece = 0;    // bytes
+
+inline void count_allocation(std::size_t size)
+{
+  ++allocations;
+  if (size > largest_piece) largest_piece = size;
+}
 
 #if defined(__SANITIZE_ADDRESS__)
 
@@ -31,8 +38,8 @@ extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile
 
 inline const bool counts_allocations = [] {
   return __sanitizer_install_malloc_and_free_hooks(
-             [](const volatile void *, size_t) {
-               ++allocations;
+             [](const volatile void *, size_t size) {
+               count_allocation(size);
              },
              [](const volatile void *) {
              }) > 0;
@@ -56,7 +63,7 @@ extern "C" void *__libc_malloc(size_t) noexcept;
 
 extern "C" void *malloc(size_t size) noexcept
 {
-  ++Membrane_TEST::allocations;
+  Membrane_TEST::count_allocation(size);
   return __libc_malloc(size);
 }
 

@@ -183,6 +183,8 @@ TEST(MeshFile, ReadsOffHoweverItsHeaderIsWritten)
   expect_tetrahedron(read_content(
       "a.OFF", with(OFF, "OFF\n4 4 6", "# a\n\n  OFF # b\n\n# c\n 4\t4 0 # d\n\n# e")));
   expect_tetrahedron(read_content("a.off", "\xEF\xBB\xBF" + OFF));
+  expect_tetrahedron(read_content("a.off", with(OFF, "OFF\n", "")));
+  expect_tetrahedron(read_content("a.off", with(OFF, "OFF\n4 4 6", "# a\n4 4")));
 }
 
 TEST(MeshFile, ReadsOffWithDosLinesAndNoLastNewline)
@@ -210,10 +212,11 @@ TEST(MeshFile, ReadsNumbersInEveryNotation)
 
 TEST(MeshFile, RejectsOffThatIsNotOff)
 {
-  EXPECT_THAT(error_about("a.off", with(OFF, "OFF\n", "")), HasSubstr("word OFF is missing"));
+  EXPECT_THAT(error_about("a.off", with(OFF, "OFF\n4 4 6", "4 points")),
+              AllOf(HasSubstr("begins with '4'"), HasSubstr("neither with the word OFF")));
   EXPECT_THAT(error_about("a.off", with(OFF, "OFF", "4OFF")), HasSubstr("three dimensions"));
   EXPECT_THAT(error_about("a.off", with(OFF, "OFF", "OFF BINARY")), HasSubstr("binary OFF"));
-  EXPECT_THAT(error_about("a.off", "# only a comment\n"), HasSubstr("word OFF is missing"));
+  EXPECT_THAT(error_about("a.off", "# only a comment\n"), HasSubstr("comments only"));
 }
 
 TEST(MeshFile, RejectsTruncatedOff)
@@ -254,8 +257,10 @@ TEST(MeshFile, RejectsBadNumbersInOff)
 
 TEST(MeshFile, RejectsBadFacesInOff)
 {
-  EXPECT_THAT(error_about("a.off", with(OFF, "3 0 2 1", "4 0 2 1 3")),
-              AllOf(HasSubstr("line 7"), HasSubstr("4 corners"), HasSubstr("triangulate")));
+  EXPECT_THAT(error_about("a.off", with(OFF, "3 0 2 1", "2 0 2")),
+              AllOf(HasSubstr("line 7"), HasSubstr("2 corners"), HasSubstr("3 or more")));
+  EXPECT_THAT(error_about("a.off", with(OFF, "3 0 2 1", "2147483647 0 2 1")),
+              AllOf(HasSubstr("line 7"), HasSubstr("needs 2147483647 corners")));
   EXPECT_THAT(error_about("a.off", with(OFF, "3 0 2 1", "3 0 2 4")),
               AllOf(HasSubstr("line 7"), HasSubstr("corner 4 is not one of the 4 vertices")));
   EXPECT_THAT(error_about("a.off", with(OFF, "3 0 2 1", "3 0 2 -1")), HasSubstr("corner -1"));
@@ -341,8 +346,8 @@ TEST(MeshFile, RejectsBadValuesInPly)
               HasSubstr("vertex 0 has too few values"));
   EXPECT_THAT(error_about("a.ply", with(PLY_TEXT, "1 1 1.5", "1 1 1.5 2")),
               HasSubstr("vertex 0 has more values"));
-  EXPECT_THAT(error_about("a.ply", with(PLY_TEXT, "3 0 2 1", "4 0 2 1 3")),
-              AllOf(HasSubstr("line 14"), HasSubstr("4 corners"), HasSubstr("triangulate")));
+  EXPECT_THAT(error_about("a.ply", with(PLY_TEXT, "3 0 2 1", "2 0 2")),
+              AllOf(HasSubstr("line 14"), HasSubstr("2 corners"), HasSubstr("3 or more")));
   EXPECT_THAT(error_about("a.ply", with(PLY_TEXT, "3 0 2 1", "3 0 2 4")),
               AllOf(HasSubstr("face 0"), HasSubstr("corner 4"), HasSubstr("below 4")));
   EXPECT_THAT(error_about("a.ply", with(PLY_TEXT, "3 0 2 1", "3 0 2 -1")), HasSubstr("corner -1"));
@@ -369,9 +374,8 @@ TEST(MeshFile, ReadsObjWithEverythingElseInIt)
 
 TEST(MeshFile, RejectsBadObj)
 {
-  EXPECT_THAT(error_about("a.obj", with(OBJ, "f 1 3 2", "f 1 3 2 4")),
-              AllOf(HasSubstr("line 5"), HasSubstr("4 corners"), HasSubstr("triangulate")));
-  EXPECT_THAT(error_about("a.obj", with(OBJ, "f 1 3 2", "f 1 3")), HasSubstr("2 corners"));
+  EXPECT_THAT(error_about("a.obj", with(OBJ, "f 1 3 2", "f 1 3")),
+              AllOf(HasSubstr("line 5"), HasSubstr("2 corners"), HasSubstr("3 or more")));
   for (const char *corner : {"0", "-5", "x", "/1", "1.5", "2147483648"})
     EXPECT_THAT(error_about("a.obj", with(OBJ, "f 1 3 2", std::string("f 1 3 ") + corner)),
                 AllOf(HasSubstr("line 5"), HasSubstr(std::string("corner '") + corner)));
@@ -460,10 +464,10 @@ TEST(MeshFile, RejectsTruncatedStl)
 TEST(MeshFile, RejectsBadStl)
 {
   const std::string text = stl_text(tetrahedron());
-  EXPECT_THAT(error_about("a.stl", with(text, "    endloop", "vertex 0 0 0\n endloop")),
-              AllOf(HasSubstr("line 7"), HasSubstr("triangulate")));
   EXPECT_THAT(error_about("a.stl", with(text, "    endloop\n", "")),
-              AllOf(HasSubstr("line 7"), HasSubstr("'endloop' should be")));
+              AllOf(HasSubstr("line 7"), HasSubstr("'vertex' or 'endloop' should be")));
+  EXPECT_THAT(error_about("a.stl", with(text, "      vertex", "      facet")),
+              AllOf(HasSubstr("line 4"), HasSubstr("'vertex' should be")));
   EXPECT_THAT(error_about("a.stl", with(text, "1.5", "x")), HasSubstr("'x' is not a number"));
   EXPECT_THAT(error_about("a.stl", with(text, "1.5", "inf")), HasSubstr("not finite"));
   EXPECT_THAT(error_about("a.stl", text + "facet normal 0 0 0\n"), HasSubstr("'solid' should be"));
@@ -471,7 +475,7 @@ TEST(MeshFile, RejectsBadStl)
   mesh.points[1][2] = std::numeric_limits<double>::infinity();
   EXPECT_THAT(error_about("a.stl", stl_binary(mesh, "x")), HasSubstr("facet 0 is not finite"));
   for (Vector3d &p : mesh.points) p = Vector3d(1, 2, 3);
-  EXPECT_THAT(error_about("a.stl", stl_binary(mesh, "x")), HasSubstr("coincide"));
+  EXPECT_THAT(error_about("a.stl", stl_binary(mesh, "x")), HasSubstr("no faces with an area"));
 }
 
 // === Any format
@@ -508,7 +512,7 @@ TEST(MeshFile, RejectsAFolder)
 
 TEST(MeshFile, RejectsUnknownExtensions)
 {
-  EXPECT_THAT(error_about("a.vtk", OFF), AllOf(HasSubstr("'vtk'"), HasSubstr("*.off")));
+  EXPECT_THAT(error_about("a.vtk", OFF), AllOf(HasSubstr("'vtk'"), HasSubstr("*.off"), HasSubstr("*.mesh")));
   EXPECT_THAT(error_about("no_extension", OFF), HasSubstr("''"));
 }
 
@@ -518,47 +522,4 @@ TEST(MeshFile, RejectsContentOfAnotherFormat)
   EXPECT_THAT(error_about("a.obj", with(OFF, "OFF", "COFF")), HasSubstr("like .off"));
   EXPECT_THAT(error_about("a.ply", stl_text(tetrahedron())), HasSubstr("like .stl"));
   EXPECT_THAT(error_about("a.stl", OFF), HasSubstr("no STL file"));
-}
-
-TEST(MeshFile, DamagedFilesGiveAMeshOrAMeshError)
-{
-  const std::pair<const char *, std::string> files[] = {
-      {"fuzz.off", OFF},
-      {"fuzz.obj", OBJ},
-      {"fuzz.ply", PLY_TEXT},
-      {"fuzz.ply", ply_binary(false)},
-      {"fuzz.ply", ply_binary(true)},
-      {"fuzz.stl", stl_text(tetrahedron())},
-      {"fuzz.stl", stl_binary(tetrahedron(), "x")}};
-  unsigned long long state = 42;
-  auto random = [&state] {
-    state = state * 6364136223846793005ull + 1442695040888963407ull;
-    return static_cast<size_t>(state >> 33);
-  };
-  int parsed = 0, rejected = 0;
-  auto try_to_read = [&](const char *name, const std::string &content) {
-    try {
-      const TriangleMesh mesh = read_content(name, content);
-      ++parsed;
-      ASSERT_LE(mesh.points.size() + mesh.faces.size(), content.size());
-      for (const Vector3d &p : mesh.points) ASSERT_TRUE(p.allFinite());
-      for (const Face &face : mesh.faces)
-        for (int v : face) ASSERT_TRUE(v >= 0 && v < static_cast<int>(mesh.points.size()));
-    } catch (const MeshError &error) {
-      ++rejected;
-      ASSERT_THAT(error.what(), AllOf(HasSubstr(name), Not(HasSubstr("\n"))));
-    }
-  };
-  for (const auto &[name, content] : files) {
-    for (size_t size = 0; size < content.size(); ++size)
-      ASSERT_NO_FATAL_FAILURE(try_to_read(name, content.substr(0, size)));
-    for (int trial = 0; trial < 1500; ++trial) {
-      std::string damaged = content;
-      for (size_t flips = 1 + random() % 4; flips > 0; --flips)
-        damaged[random() % damaged.size()] = static_cast<char>(random());
-      ASSERT_NO_FATAL_FAILURE(try_to_read(name, damaged));
-    }
-  }
-  EXPECT_GT(parsed, 500);
-  EXPECT_GT(rejected, 3000);
 }

@@ -207,9 +207,9 @@ claim("* stands for the timestep", os.path.exists("s.20.vtp") and os.path.exists
 ready = box() + SPHERE
 wrong = {
     "write_membrane": "missing",
-    "write_membrane s.obj": "extension off, ply or vtp",
-    "write_membrane s": "extension off, ply or vtp",
-    "write_membrane s.d/s": "extension off, ply or vtp",
+    "write_membrane s.obj": "extension off, ply, tsi or vtp",
+    "write_membrane s": "extension off, ply, tsi or vtp",
+    "write_membrane s.d/s": "extension off, ply, tsi or vtp",
     "write_membrane s.vtp subdivide": "missing",
     "write_membrane s.vtp subdivide -1": "between 0 and 256",
     "write_membrane s.vtp subdivide 1000": "between 0 and 256",
