@@ -268,9 +268,9 @@ TEST(MeshSoup, QuadsAreCutAlongTheShorterDiagonalWithinThem)
             (std::vector<int>{1, 2, 1, 2}));
   EXPECT_EQ(first_cut({{3, 1, 0}, {4, 4, 0}, {1, 3, 0}, {0, 0, 0}}),
             (std::vector<int>{2, 1, 2, 1}));
-  // concave at (1, 1): the long diagonal is the one within
-  EXPECT_EQ(first_cut({{0, 0, 0}, {3, 0, 0}, {1, 1, 0}, {0, 3, 0}}),
-            (std::vector<int>{2, 1, 2, 1}));
+  // concave at (0, 0.1): the shorter diagonal is outside
+  EXPECT_EQ(first_cut({{1, 0, 0}, {0, 3, 0}, {-1, 0, 0}, {0, 0.1, 0}}),
+            (std::vector<int>{1, 2, 1, 2}));
 }
 
 TEST(MeshSoup, PolygonsKeepTheirAreaAndOrientation)

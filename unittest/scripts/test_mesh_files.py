@@ -1,7 +1,8 @@
 """create_membrane reads the mesh files that people have, says what it did to them, and write_membrane's own."""
 
+# cost: 15
+
 import os
-import re
 
 from lammps_claims import MPIEXEC, REFERENCE, claim, error_of, finish, run, thermo
 from membrane_scenes import bipyramid, read_off, write_off
