@@ -22,6 +22,9 @@
 #include "fix.h"
 #include "membrane_regularization.h"
 #include "modify.h"
+#include "update.h"
+
+#include <cmath>
 
 using namespace LAMMPS_NS;
 using Membrane_NS::FaceGroup;
@@ -105,7 +108,7 @@ void RegularizeTerm::add_forces(HelfrichScene &scene, const double (*x)[3], doub
   for (const FaceGroup &group : scene.groups) {
     const double worst = Membrane_NS::regularize_faces(group, x, modulus, f, energy,
                                                        scene.energies.virial);
-    if (worst < WORST_FACE) continue;
+    if (worst < WORST_FACE || (update->whichflag == 2 && std::isfinite(worst))) continue;
     for (int s = 0; s < group.nfaces; ++s)
       if (!(Membrane_NS::face_distortion(x[group.point(s, 0)], x[group.point(s, 1)],
                                          x[group.point(s, 2)]) < WORST_FACE))

@@ -37,12 +37,19 @@ static constexpr double EPS_ENERGY = 1.0e-8;
 static constexpr int SMALL_GAINS = 9;         // in short steps, one after another, end the search
 static constexpr int FULL_STEP = 3;           // as many as these counts a small gain in a full one
 static constexpr double MOST_STRAIN = 0.3;    // of an edge, in one iteration
+static constexpr double MOST_MOVE = 0.5;      // of a control point in one, by the mean edge
+static constexpr double PLAIN_DMAX = 0.1;     // LAMMPS' default, for other atoms
+static constexpr double OUTDATED = 1.25;      // an edge longer or shorter by this wants another metric
+static constexpr int LEAST_PAIRS = 10;        // that a metric is kept for
+static constexpr double POOR_ANGLE = 2.0;     // degrees
 
 /* ---------------------------------------------------------------------- */
 
 MinMembrane::MinMembrane(LAMMPS *lmp) :
-    MinLineSearch(lmp), mesh(lmp, "Min style membrane"), s{}, y{}, rho{}, pairs(0), newest(0)
+    MinLineSearch(lmp), mesh(lmp, "Min style membrane"), angle_at_start(0.0), s{}, y{}, rho{},
+    pairs(0), newest(0)
 {
+  dmax = 0.0;    // not given; min_modify comes later
 }
 
 void MinMembrane::init()
@@ -58,7 +65,17 @@ void MinMembrane::setup_style()
 {
   MinLineSearch::setup_style();
   for (int i = 0; i < 2 * MEMORY; ++i) fix_minimize->add_vector(3);
+  mesh.init();
+  shape = mesh->triangle_mesh();
+  edges.clear();
+  for (const auto &face : mesh->topology().faces())
+    for (int k = 0; k < 3; ++k)
+      if (const int a = face[k], b = face[(k + 1) % 3]; a < b) edges.push_back({a, b});
+  measure_edges();
+  find_moduli();
   build_metric();
+  int face;
+  angle_at_start = smallest_angle(face);
 }
 
 void MinMembrane::reset_vectors()
@@ -72,28 +89,68 @@ void MinMembrane::reset_vectors()
 
 /* ---------------------------------------------------------------------- */
 
-void MinMembrane::build_metric()
+// bending moduli of the control points, from the pair style
+
+void MinMembrane::find_moduli()
 {
-  mesh.init();
-  const auto &topology = mesh->topology();
-  const int n = topology.num_vertices();
+  const int n = mesh->topology().num_vertices();
   if (n == 0) error->all(FLERR, "Min style membrane finds no membrane");
-
-  shape = mesh->triangle_mesh();
-
-  // bending moduli of the control points, from the pair style
-
   Pair *pair = force->pair_match("^helfrich", 0);
   int dim;
   const auto *modulus = pair ? static_cast<double *>(pair->extract("kc", dim)) : nullptr;
   if (!modulus) error->all(FLERR, "Min style membrane needs pair style helfrich");
-  Eigen::VectorXd mine = Eigen::VectorXd::Zero(n), kc(n);
+  Eigen::VectorXd mine = Eigen::VectorXd::Zero(n);
+  moduli.resize(n);
   for (int i = 0; i < atom->nlocal; ++i)
     if (const int v = mesh->vertex(atom->tag[i]); v >= 0) mine[v] = modulus[atom->type[i]];
-  MPI_Allreduce(mine.data(), kc.data(), n, MPI_DOUBLE, MPI_SUM, world);
-  const double most = kc.maxCoeff();
+  MPI_Allreduce(mine.data(), moduli.data(), n, MPI_DOUBLE, MPI_SUM, world);
+  const double most = moduli.maxCoeff();
   if (most <= 0.0) error->all(FLERR, "Min style membrane needs a membrane with bending modulus");
-  metric = std::make_unique<BendingMetric>(shape, topology, kc.cwiseMax(1.0e-3 * most));
+  moduli = moduli.cwiseMax(1.0e-3 * most);
+}
+
+// the metric of the present shape, and how far its points may move
+
+void MinMembrane::build_metric()
+{
+  const auto &topology = mesh->topology();
+  metric = std::make_unique<BendingMetric>(shape, topology, moduli);
+  lengths_of_metric = lengths;
+  farthest.assign(topology.num_components(), 0.0);
+  std::vector<int> count(topology.num_components(), 0);
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const int component = topology.component(edges[e][0]);
+    farthest[component] += MOST_MOVE * lengths[e];
+    ++count[component];
+  }
+  for (size_t c = 0; c < count.size(); ++c) farthest[c] /= count[c];
+}
+
+// control points slide far at little cost; then the metric is one of triangles that are no more
+
+bool MinMembrane::metric_outdated() const
+{
+  const auto change = lengths.array() / lengths_of_metric.array();
+  return change.maxCoeff() > OUTDATED || change.minCoeff() < 1.0 / OUTDATED;
+}
+
+// in degrees, and the face that has it
+
+double MinMembrane::smallest_angle(int &sharp) const
+{
+  double angle = INFINITY;
+  const auto &topology = mesh->topology();
+  for (int f = 0; f < topology.num_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto &face = topology.face(f);
+      const Eigen::Vector3d a = shape.edge(face[k], face[(k + 1) % 3]),
+                            b = shape.edge(face[k], face[(k + 2) % 3]);
+      const double here = std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / M_PI;
+      if (here >= angle) continue;
+      angle = here;
+      sharp = f;
+    }
+  return angle;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -119,6 +176,20 @@ BendingMetric::Vectors MinMembrane::gather(const double *f)
   return all;
 }
 
+void MinMembrane::read_shape()
+{
+  const BendingMetric::Vectors x = gather(xvec);
+  for (int v = 0; v < x.rows(); ++v) shape.points[v] = x.row(v).transpose();
+  measure_edges();
+}
+
+void MinMembrane::measure_edges()
+{
+  lengths.resize(edges.size());
+  for (size_t e = 0; e < edges.size(); ++e)
+    lengths[e] = shape.edge(edges[e][0], edges[e][1]).norm();
+}
+
 void MinMembrane::precondition(double *f)
 {
   const BendingMetric::Vectors solved = metric->solve(gather(f));
@@ -127,32 +198,32 @@ void MinMembrane::precondition(double *f)
 }
 
 /* ----------------------------------------------------------------------
-   the longest step along h: no edge of the mesh may change by more than a fraction of its length,
-   however far the membrane moves as a whole; other atoms move by at most dmax
+   the longest step along h. No edge of the mesh may change by more than a fraction of its length.
+   That does not bound what leaves edges as they are, as when a wall pulls on a membrane as a whole:
+   no coordinate may change by more than dmax, if not given by half an edge, so that whatever the mesh
+   can resolve is not jumped over
 ------------------------------------------------------------------------- */
 
 double MinMembrane::longest_step()
 {
-  const auto &topology = mesh->topology();
-  const BendingMetric::Vectors move = gather(h), x = gather(xvec);
+  const BendingMetric::Vectors move = gather(h);
   double strain = 0.0;
-  for (const auto &face : topology.faces())
-    for (int k = 0; k < 3; ++k) {
-      const int a = face[k], b = face[(k + 1) % 3];
-      if (a > b) continue;
-      const Eigen::Vector3d edge = shape.nearest_image((x.row(b) - x.row(a)).transpose());
-      strain = MAX(strain, (move.row(b) - move.row(a)).norm() / edge.norm());
-    }
+  for (size_t e = 0; e < edges.size(); ++e)
+    strain = MAX(strain, (move.row(edges[e][1]) - move.row(edges[e][0])).norm() / lengths[e]);
 
   double mine = 0.0, most;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (mesh->vertex(atom->tag[i]) < 0)
-      for (int k = 0; k < 3; ++k) mine = MAX(mine, std::fabs(h[3 * i + k]));
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh->vertex(atom->tag[i]);
+    const double limit = dmax > 0.0 ? dmax
+        : v < 0                     ? PLAIN_DMAX
+                                    : farthest[mesh->topology().component(v)];
+    for (int k = 0; k < 3; ++k) mine = MAX(mine, std::fabs(h[3 * i + k]) / limit);
+  }
   MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, world);
 
   double step = 1.0;
   if (strain > 0.0) step = MIN(step, MOST_STRAIN / strain);
-  if (most > 0.0) step = MIN(step, dmax / most);
+  if (most > 0.0) step = MIN(step, 1.0 / most);
   return step;
 }
 
@@ -217,13 +288,40 @@ int MinMembrane::search(double &alpha)
 
 int MinMembrane::iterate(int maxiter)
 {
+  const int stop = descend(maxiter);
+  report_mesh();
+  return stop;
+}
+
+void MinMembrane::report_mesh()
+{
+  read_shape();
+  int face = 0;
+  const double angle = smallest_angle(face);
+  if (angle < POOR_ANGLE && comm->me == 0)
+    error->warning(FLERR,
+                   "Min style membrane: the mesh is poor, {} has an angle of {:.2g} degrees "
+                   "(smallest at the start: {:.2g}), so the energy falls slowly and may be above "
+                   "that of the shape; keep the mesh with regularize in pair_coeff, 1e-4 of kc for "
+                   "a start, or begin with a better one",
+                   mesh->face_name(face), angle, angle_at_start);
+}
+
+int MinMembrane::descend(int maxiter)
+{
   pairs = newest = 0;
-  int small_gains = 0;
+  int small_gains = 0, metric_since = 0;
   for (int iter = 0; iter < maxiter; ++iter) {
     if (timer->check_timeout(niter)) return TIMEOUT;
     const bigint ntimestep = ++update->ntimestep;
     ++niter;
 
+    read_shape();
+    if (iter - metric_since >= LEAST_PAIRS && metric_outdated()) {
+      metric_since = iter;
+      build_metric();
+      pairs = 0;
+    }
     direction();
     if (dot(fvec, h) <= 0.0) {
       pairs = 0;

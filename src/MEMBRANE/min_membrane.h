@@ -24,6 +24,7 @@ MinimizeStyle(membrane,MinMembrane);
 #include "mesh_local.h"
 #include "min_linesearch.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -44,7 +45,12 @@ class MinMembrane : public MinLineSearch {
 
   LocalMesh mesh;
   std::unique_ptr<Membrane_NS::BendingMetric> metric;
-  Membrane_NS::TriangleMesh shape;
+  Membrane_NS::TriangleMesh shape;               // at the start of the iteration
+  Eigen::VectorXd moduli;                        // by vertex
+  std::vector<std::array<int, 2>> edges;         // each once
+  Eigen::VectorXd lengths, lengths_of_metric;    // of the edges: of shape, of the metric's
+  std::vector<double> farthest;                  // a control point may move, by component
+  double angle_at_start;                         // smallest of the mesh
 
   // pairs of steps s and gradient changes y, in a ring buffer; kept by fix minimize
 
@@ -52,13 +58,20 @@ class MinMembrane : public MinLineSearch {
   double rho[MEMORY];
   int pairs, newest;
 
+  void find_moduli();
   void build_metric();
+  bool metric_outdated() const;
+  double smallest_angle(int &) const;
   double dot(const double *, const double *) const;
   Membrane_NS::BendingMetric::Vectors gather(const double *);
+  void read_shape();
+  void measure_edges();
   void precondition(double *);
   double longest_step();
   void direction();
   int search(double &);
+  int descend(int);
+  void report_mesh();
 };
 
 }    // namespace LAMMPS_NS
