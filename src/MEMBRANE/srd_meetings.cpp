@@ -41,6 +41,9 @@ using Membrane_NS::MovingPoint;
 using Membrane_NS::SurfaceGrid;
 using Membrane_NS::SurfaceVertex;
 
+// what flies further in a step, in sub-domains, is no solvent any more
+static constexpr double MOST_BOXES = 1000.0;
+
 // all of these in edges of the mesh; those of the grid, of the surface
 
 // the grid is built anew when vertices have moved so far; its cubes know triangles within both
@@ -103,7 +106,13 @@ void SurfaceMeetings::build_grid(const SRDFlight &flight,
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!solvent.has(i)) continue;
     const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
-    const Vector3d room = Vector3d::Constant(flight.dt * v.norm());
+    const double way = flight.dt * v.norm();
+    if (!x.allFinite() || !(way < MOST_BOXES * (hi - lo).maxCoeff()))
+      error->one(FLERR,
+                 "{}: solvent atom {} flies off, with the velocity {:.4g}: use a shorter timestep or weaker "
+                 "forces on it",
+                 settings.user, atom->tag[i], v.norm());
+    const Vector3d room = Vector3d::Constant(way);
     lo = lo.cwiseMin(x - room);
     hi = hi.cwiseMax(x + room);
     square += v.squaredNorm();

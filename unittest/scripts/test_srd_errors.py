@@ -66,6 +66,8 @@ for name, script, words in (
          ["move along itself only"]),
         ("inside of a membrane that is open", scene(membrane=SHEET, solvent="create_solvent 2 inside 5.0 8341\n"),
          ["no closed membrane"]),
+        ("solvent that flies off", scene(rest="variable f equal exp(800*step/5)\nfix 3 solvent addforce v_f 0 0\n" + REST),
+         ["solvent atom", "flies off", "use a shorter timestep"]),
         ("solvent of negative density", scene(solvent="create_solvent 2 inside -5.0 8341\n"),
          ["density -5.0 must be positive"]),
         ("a side that is none", scene(solvent="create_solvent 2 above 5.0 8341\n"), ["above is not inside, outside or both"])):
