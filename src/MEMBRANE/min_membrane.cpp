@@ -39,10 +39,9 @@ static constexpr int FULL_STEP = 3;           // as many as these counts a small
 static constexpr double MOST_STRAIN = 0.3;    // of an edge, in one iteration
 static constexpr double MOST_MOVE = 0.5;      // of a control point in one, by the mean edge
 static constexpr double PLAIN_DMAX = 0.1;     // LAMMPS' default, for other atoms
-static constexpr double OUTDATED =
-    1.25;                                 // an edge longer or shorter by this wants another metric
-static constexpr int LEAST_PAIRS = 10;    // that a metric is kept for
-static constexpr double POOR_ANGLE = 2.0;    // degrees
+static constexpr double OUTDATED = 1.25;      // an edge so much longer or shorter than in the metric
+static constexpr int METRIC_STAYS = 10;       // iterations at least
+static constexpr double POOR_ANGLE = 2.0;     // degrees
 
 /* ---------------------------------------------------------------------- */
 
@@ -58,9 +57,8 @@ void MinMembrane::init()
   MinLineSearch::init();
   mesh.require();
   if (nextra_global || nextra_atom)
-    error->all(FLERR,
-               "Min style membrane moves atoms only: use another min_style with fix "
-               "box/relax and with pair styles that have extra degrees of freedom");
+    error->all(FLERR, "Min style membrane moves atoms only: use another min_style with fix "
+                      "box/relax and with pair styles that have extra degrees of freedom");
 }
 
 void MinMembrane::setup_style()
@@ -319,7 +317,7 @@ int MinMembrane::descend(int maxiter)
     ++niter;
 
     read_shape();
-    if (iter - metric_since >= LEAST_PAIRS && metric_outdated()) {
+    if (iter - metric_since >= METRIC_STAYS && metric_outdated()) {
       metric_since = iter;
       build_metric();
       pairs = 0;
@@ -366,9 +364,8 @@ int MinMembrane::descend(int maxiter)
     } else
       small_gains = 0;
     if (update->ftol > 0.0) {
-      const double fdotf = normstyle == MAX ? fnorm_max()
-          : normstyle == INF                ? fnorm_inf()
-                                            : fnorm_sqr();
+      const double fdotf = normstyle == MAX ? fnorm_max() : normstyle == INF ? fnorm_inf()
+                                                                            : fnorm_sqr();
       if (fdotf < update->ftol * update->ftol) return FTOL;
     }
 
