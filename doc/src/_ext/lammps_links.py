@@ -17,7 +17,7 @@ PAGES = set('''
     fix_balance fix_box_relax fix_brownian fix_deform fix_langevin fix_modify fix_nh fix_nve
     fix_numdiff fix_setforce fix_spring fix_srd group min_modify min_style minimize neighbor newton
     pair_coeff pair_hybrid pair_lj pair_modify pair_style pair_write partition plugin processors
-    read_data read_dump read_restart region replicate rerun restart run run_style set special_bonds
+    read_data read_dump read_restart region replicate rerun reset_atoms reset_timestep restart run run_style set special_bonds
     thermo thermo_modify thermo_style timestep units variable velocity write_data write_dump
     write_restart
 '''.split())
