@@ -101,7 +101,7 @@ class SurfaceGrid : public SurfaceImages {
 
  private:
   Settings settings_ = {};
-  Eigen::Vector3d lo_;
+  Eigen::Vector3d lo_ = Eigen::Vector3d::Zero();
   double spacing_ = 0.0, inverse_spacing_ = 0.0;
   std::array<int, 3> size_ = {0, 0, 0};
   std::vector<Eigen::Vector3d> built_at_;
