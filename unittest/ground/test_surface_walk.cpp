@@ -230,6 +230,7 @@ TEST(SurfaceWalk, ThroughAVertexTheAnglesOnBothSidesAreEqual)
     const SurfaceScene scene(bipyramid(n));
     const IntSpan faces = scene.topology.faces_around(n);
     const int f = faces[0], k = corner_of(scene.topology.face(f), n);
+    ASSERT_GE(k, 0);
 
     // along an edge: out along the opposite edge, or, if there is none, through the middle of a face
 
