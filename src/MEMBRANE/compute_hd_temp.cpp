@@ -30,7 +30,7 @@ using namespace LAMMPS_NS;
 
 ComputeHDTemp::ComputeHDTemp(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), tfactor(0.0), mass(lmp, igroup, "Compute hd/temp"),
-    settings_given(false)
+    settings_given(false), lost(0)
 {
   scalar_flag = vector_flag = 1;
   size_vector = 6;
@@ -82,7 +82,7 @@ void ComputeHDTemp::setup()
 void ComputeHDTemp::dof_compute()
 {
   adjust_dof_fix();
-  dof = 3.0 * mass.count() - extra_dof - fix_dof;
+  dof = 3.0 * mass.count() - lost - extra_dof - fix_dof;
   tfactor = dof > 0.0 ? force->mvv2e / (dof * force->boltz) : 0.0;
 }
 
@@ -93,7 +93,11 @@ double ComputeHDTemp::compute_scalar()
   invoked_scalar = update->ntimestep;
   double t[6];
   mass.kinetic(t);
-  if (dynamic) dof_compute();
+  const int now = mass.matrix().lost_freedoms();
+  if (dynamic || now != lost) {
+    lost = now;
+    dof_compute();
+  }
   return scalar = tfactor * (t[0] + t[1] + t[2]);
 }
 

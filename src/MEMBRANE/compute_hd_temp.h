@@ -40,6 +40,7 @@ class ComputeHDTemp : public Compute {
   double tfactor;
   HDMass mass;
   bool settings_given;
+  int lost;    // degrees of freedom that the mass does not have
 
   void dof_compute();
 };

@@ -19,6 +19,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "force.h"
@@ -38,6 +39,13 @@ using Membrane_NS::VertexField;
 
 // a control point that moves further than this fraction of the longest edge in one step is lost
 static constexpr double MOST_DRIFT = 0.25;
+
+// mass sampling moves a membrane as a whole: so much of its radius, which is 0.26 edges times the root of
+// the number of its points
+static constexpr double RADIUS = 0.26;
+
+// steps between looks at whether a shape has left the reference of mass sampling
+static constexpr int RENEW_EVERY = 100;
 
 // longest over shortest edge at a point from which on the mesh is said to have lost its shape
 static constexpr double SHORT_EDGE = 3.0;
@@ -62,6 +70,7 @@ FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
   vector_flag = global_freq = 1;
   size_vector = 2;
   extvector = 0;
+  measure.groupbit = groupbit;
 }
 
 FixHDBase::~FixHDBase() = default;
@@ -82,12 +91,19 @@ int FixHDBase::modify_param(int narg, char **arg)
   return 2;
 }
 
+void *FixHDBase::extract(const char *name, int &dim)
+{
+  dim = 0;
+  return strcmp(name, "measure") == 0 ? &measure : nullptr;
+}
+
 void FixHDBase::init()
 {
   mass.init();
   faces->init();
   check_other_integrators();
   most_drift = MOST_DRIFT * mass.mesh().longest_edge();
+  if (sampling()) most_drift *= MAX(1.0, RADIUS * std::sqrt(mass.count()));
   moved_step = -1;
 }
 
@@ -154,7 +170,7 @@ void FixHDBase::setup(int)
 
 void FixHDBase::pre_force(int)
 {
-  if (watching) faces->check(update->ntimestep % FACES_EVERY == 0 || neighbor->ago == 0);
+  if (watching) faces->check(sampling() || update->ntimestep % FACES_EVERY == 0 || neighbor->ago == 0);
 }
 
 /* ----------------------------------------------------------------------
@@ -183,6 +199,14 @@ void FixHDBase::accelerate()
 {
   mass.refresh();
   mass.part().load(atom->f, force_field);
+  if (mass.matrix().lost_freedoms() > 0) {
+    VertexField x(force_field.size());
+    for (int i = 0; i < mass.part().owned; ++i) {
+      const int j = mass.part().atom_of(i);
+      domain->unmap(atom->x[j], atom->image[j], x[i].c);
+    }
+    mass.matrix().add_gauge_forces(measure.kT, x, force_field);
+  }
   acceleration.resize(force_field.size());
   mass.matrix().solve(force_field, acceleration);
   passes = mass.matrix().passes();
@@ -236,6 +260,7 @@ void FixHDBase::drift(double step)
 
 void FixHDBase::relax(double keep, double kT, bigint seed)
 {
+  if (renew()) keep = 0.0;
   mass.part().load(atom->v, velocity);
   mass.matrix().relax(keep, kT, seed, noise_steps++, velocity);
   mass.part().store(velocity, atom->v);
@@ -302,6 +327,11 @@ std::string FixHDBase::shape_lost_at(tagint id_of_point)
       ", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
       "{:.3g}; keep it with regularize in pair_coeff",
       std::sqrt(shortest), std::sqrt(longest));
+}
+
+bool FixHDBase::renew()
+{
+  return sampling() && noise_steps % RENEW_EVERY == 0 && mass.renew();
 }
 
 // === Restart

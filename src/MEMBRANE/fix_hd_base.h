@@ -16,6 +16,7 @@
 
 #include "fix.h"
 #include "hd_mass.h"
+#include "helfrich_measure.h"
 
 #include "restart_archive.h"
 
@@ -42,6 +43,8 @@ class FixHDBase : public Fix {
   double memory_usage() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  /// "measure": a HelfrichMeasure, dim 0
+  void *extract(const char *, int &dim) override;
 
   // === What others ask of an integrator
 
@@ -57,15 +60,23 @@ class FixHDBase : public Fix {
   /// M^-1 f at the start of the present step, in units of force/mass; the same order.
   const Membrane_NS::VertexField &last_acceleration() const { return acceleration; }
   const MeshPart &part() { return mass.part(); }
+  /// Its dynamics have no meaning.
+  bool sampling() const { return mass.settings.kind == Membrane_NS::MassKind::SAMPLING; }
 
  protected:
   HDMass mass;
+  /// At which temperature the shapes of membranes are sampled; kT = 0 if at none.
+  HelfrichMeasure measure;
 
   /** Steps with noise since the fix was made, restarts included: random numbers are a function of it, and
       not of LAMMPS' timestep, which reset_timestep sets back. */
   bigint noise_steps;
   /// What restart files keep, of a fix with restart_global = 1.
-  virtual void archive(RestartArchive &file) { file(noise_steps); }
+  virtual void archive(RestartArchive &file)
+  {
+    file(noise_steps);
+    mass.archive(file);
+  }
 
   // === Moves of the momenta p = M v and of x
 
@@ -79,6 +90,9 @@ class FixHDBase : public Fix {
   /// friction per vertex, one per owned vertex. Once a step.
   void relax(double keep, double kT, bigint seed);
   void relax(const std::vector<double> &keep, double kT, bigint seed);
+  /** Collective: now and then, whether mass sampling has been made anew for a shape that has left its
+      reference, so that velocities and noise of the old one are worth nothing. relax() does so itself. */
+  bool renew();
   /// v = M^-1 f + random1 + random2, where M is a drag matrix: forces and drag balance.
   void balance(const Membrane_NS::VertexField &random1, const Membrane_NS::VertexField &random2);
 

@@ -31,7 +31,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
-    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), next_step(-1), numbering(-1)
+    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), with_measure(true), next_step(-1),
+    numbering(-1)
 {
   restart_global = 1;
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
@@ -51,10 +52,20 @@ FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
       if (gamma_t <= 0.0)
         error->all(FLERR, "Fix hd/brownian gamma_t {} must be positive", arg[iarg + 1]);
       iarg += 2;
+    } else if (strcmp(arg[iarg], "measure") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/brownian measure", error);
+      with_measure = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      if (with_measure && temperature == 0.0)
+        error->all(FLERR, "Fix hd/brownian measure yes needs a temperature: there is no measure at 0, "
+                          "leave it out");
+      iarg += 2;
     } else
-      error->all(FLERR, "Unknown fix hd/brownian keyword {}; known are: gamma_t, mass, solver, tol",
+      error->all(FLERR,
+                 "Unknown fix hd/brownian keyword {}; known are: gamma_t, mass, solver, tol, measure",
                  arg[iarg]);
   }
+  set_measure();
+  if (gamma_t == 0.0 && sampling()) gamma_t = 1.0;
   if (gamma_t == 0.0)
     error->all(FLERR, "Fix hd/brownian needs gamma_t, the drag coefficient of a vertex");
   mass.set_drag(gamma_t);
@@ -89,6 +100,7 @@ void FixHDBrownian::reset_dt()
 
 void FixHDBrownian::initial_integrate(int)
 {
+  renew();
   accelerate();
   const double kT = force->boltz * temperature / force->mvv2e;
   const bigint step = noise_steps++;
@@ -112,4 +124,11 @@ void FixHDBrownian::reset_target(double t_new)
 {
   temperature = t_new;
   next_step = -1;
+  set_measure();
+}
+
+void FixHDBrownian::set_measure()
+{
+  measure.kT = force->boltz * temperature;
+  measure.on = with_measure && temperature > 0.0;
 }

@@ -38,8 +38,11 @@ class FixHDBrownian : public FixHDBase {
  private:
   double temperature, gamma_t, dt;
   bigint seed;
+  bool with_measure;
   Membrane_NS::VertexField noise, next_noise;
   bigint next_step, numbering;    // what next_noise is for
+
+  void set_measure();
 };
 
 }    // namespace LAMMPS_NS

@@ -33,7 +33,7 @@ using namespace FixConst;
 
 FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
     FixHDBase(lmp, narg, arg), ratio(atom->ntypes + 1, 1.0), scaled(false), tally(false),
-    energy(0.0), dt(0.0)
+    with_measure(true), energy(0.0), dt(0.0)
 {
   if (narg < 7) utils::missing_cmd_args(FLERR, "fix hd/langevin", error);
   scalar_flag = global_freq = extscalar = 1;
@@ -68,11 +68,21 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/langevin tally", error);
       tally = utils::logical(FLERR, arg[iarg + 1], false, lmp);
       iarg += 2;
+    } else if (strcmp(arg[iarg], "measure") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/langevin measure", error);
+      with_measure = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      if (with_measure && t_start == 0.0 && t_stop == 0.0)
+        error->all(FLERR, "Fix hd/langevin measure yes needs a temperature: there is no measure at 0, "
+                          "leave it out");
+      iarg += 2;
     } else
       error->all(FLERR,
-                 "Unknown fix hd/langevin keyword {}; known are: mass, solver, tol, scale, tally",
+                 "Unknown fix hd/langevin keyword {}; known are: mass, solver, tol, scale, tally, "
+                 "measure",
                  arg[iarg]);
   }
+  measure.on = with_measure && (t_start > 0.0 || t_stop > 0.0);
+  measure.tally = tally;
 }
 
 int FixHDLangevin::setmask()
@@ -83,6 +93,7 @@ int FixHDLangevin::setmask()
 void FixHDLangevin::init()
 {
   FixHDBase::init();
+  measure.kT = kT();
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix hd/langevin does not work with run_style respa");
   reset_dt();
@@ -108,6 +119,7 @@ void FixHDLangevin::reset_dt()
 
 void FixHDLangevin::initial_integrate(int)
 {
+  set_measure();
   kick(0.5 * dt);
   drift(0.5 * dt);
   thermalize();
@@ -120,6 +132,28 @@ void FixHDLangevin::final_integrate()
   kick(0.5 * dt);
 }
 
+double FixHDLangevin::kT() const
+{
+  const bigint length = update->endstep - update->beginstep;    // 0 outside of runs
+  const double done =
+      length > 0 ? static_cast<double>(update->ntimestep - update->beginstep) / length : 1.0;
+  return force->boltz * (t_start + done * (t_stop - t_start));
+}
+
+/* ----------------------------------------------------------------------
+   the energy of the measure is proportional to kT: what a change of kT gives to it comes from the bath
+------------------------------------------------------------------------- */
+
+void FixHDLangevin::set_measure()
+{
+  const double before = measure.kT;
+  measure.kT = kT();
+  if (!tally || !measure.on || measure.kT == before) return;
+  double logs;
+  MPI_Allreduce(&measure.logs, &logs, 1, MPI_DOUBLE, MPI_SUM, world);
+  energy -= (measure.kT - before) * logs;
+}
+
 /* ----------------------------------------------------------------------
    friction gamma M with gamma = 1/damp: p' = -gamma p + noise, so v -> exp(-gamma dt) v + noise
    with <noise noise> = (1 - exp(-2 gamma dt)) kT M^-1
@@ -127,19 +161,16 @@ void FixHDLangevin::final_integrate()
 
 void FixHDLangevin::thermalize()
 {
-  double done = update->ntimestep - update->beginstep;
-  if (done != 0.0) done /= update->endstep - update->beginstep;
-  const double kT = force->boltz * (t_start + done * (t_stop - t_start)) / force->mvv2e;
-
+  const double kT_mass = kT() / force->mvv2e;
   const double before = tally ? kinetic() : 0.0;
   if (scaled) {
     const MeshPart &part = mass.part();
     std::vector<double> keep(part.owned);
     for (int i = 0; i < part.owned; ++i)
       keep[i] = std::exp(-dt / (damp * ratio[atom->type[part.atom_of(i)]]));
-    relax(keep, kT, seed);
+    relax(keep, kT_mass, seed);
   } else
-    relax(std::exp(-dt / damp), kT, seed);
+    relax(std::exp(-dt / damp), kT_mass, seed);
   if (tally) energy += before - kinetic();
 }
 
@@ -153,6 +184,7 @@ double FixHDLangevin::kinetic()
 void FixHDLangevin::reset_target(double t_new)
 {
   t_start = t_stop = t_new;
+  measure.on = with_measure && t_new > 0.0;
 }
 
 /* ----------------------------------------------------------------------

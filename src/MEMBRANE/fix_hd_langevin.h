@@ -48,10 +48,12 @@ class FixHDLangevin : public FixHDBase {
   double t_start, t_stop, damp;
   bigint seed;
   std::vector<double> ratio;    // by type: damping time over damp
-  bool scaled, tally;
+  bool scaled, tally, with_measure;
   double energy;    // taken out of the membrane so far
   double dt;
 
+  double kT() const;
+  void set_measure();
   void thermalize();
   double kinetic();
 };

@@ -18,8 +18,11 @@
 #include "fix_hd_nve.h"
 
 #include "error.h"
+#include "force.h"
 #include "respa.h"
 #include "update.h"
+
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -32,11 +35,26 @@ FixHDNVE::FixHDNVE(LAMMPS *lmp, int narg, char **arg) :
   dynamic_group_allow = 0;
   int iarg = 3;
   while (iarg < narg) {
-    const int used = mass.parse(iarg, narg, arg);
-    if (!used)
-      error->all(FLERR, "Unknown fix hd/nve keyword {}; known are: mass, solver, tol", arg[iarg]);
-    iarg += used;
+    if (const int used = mass.parse(iarg, narg, arg)) {
+      iarg += used;
+    } else if (strcmp(arg[iarg], "measure") == 0) {
+      if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/nve measure", error);
+      const double temperature = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (!(temperature > 0.0))
+        error->all(FLERR,
+                   "Fix hd/nve measure {} must be a positive temperature; leave it out for motion "
+                   "without one",
+                   arg[iarg + 1]);
+      measure.on = true;
+      measure.kT = force->boltz * temperature;
+      iarg += 2;
+    } else
+      error->all(FLERR, "Unknown fix hd/nve keyword {}; known are: mass, solver, tol, measure",
+                 arg[iarg]);
   }
+  if (sampling())
+    error->all(FLERR, "Fix hd/nve mass sampling: its motion means nothing without a thermostat; use fix "
+                      "hd/langevin, or another mass");
 }
 
 int FixHDNVE::setmask()

@@ -139,11 +139,14 @@ void FixSRDMesh::init_membranes()
 void *FixSRDMesh::extract(const char *name, int &dim)
 {
   dim = 0;
-  if (strcmp(name, "default_regularize") != 0 || membrane < 0 || group->count(membrane) == 0)
-    return nullptr;
+  const bool mesh = strcmp(name, "default_regularize") == 0, measure = strcmp(name, "measure") == 0;
+  if (!(mesh || measure) || membrane < 0 || group->count(membrane) == 0) return nullptr;
   solvent.refresh();
   fluid.measure(solvent);
-  stiffness = STIFF_MESH * force->boltz * fluid.temperature();
+  const double kT = force->boltz * fluid.temperature();
+  sampling = {given.measure && kT > 0.0, kT, group->bitmask[membrane], false, 0.0};
+  if (measure) return &sampling;
+  stiffness = STIFF_MESH * kT;
   return &stiffness;
 }
 

@@ -22,6 +22,7 @@ FixStyle(srd/mesh,FixSRDMesh);
 
 #include "fix.h"
 #include "hd_mass.h"
+#include "helfrich_measure.h"
 #include "srd_cells.h"
 #include "srd_fluid.h"
 #include "srd_ghost_free_group.h"
@@ -61,9 +62,9 @@ class FixSRDMesh : public Fix {
   void end_of_step() override;
   void post_run() override;
   double compute_vector(int) override;
-  /** "default_regularize", dim 0: a double, the modulus that meshes need among solvent, for pair
-      style helfrich where pair_coeff says nothing; null without membranes. Collective; may be asked
-      before init(). */
+  /** For pair style helfrich; null without membranes. Collective; may be asked before init(). dim 0.
+      "default_regularize": a double, the modulus that meshes need among solvent where pair_coeff says
+      nothing; "measure": a HelfrichMeasure. */
   void *extract(const char *, int &) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -97,6 +98,7 @@ class FixSRDMesh : public Fix {
   bool velocities_set;      // by the first run
   bool clear_forces;        // LAMMPS does not
   double stiffness;         // see extract(); 0 if nobody has asked
+  HelfrichMeasure sampling;    // the same
   bigint sampled, natoms_after_run;
   bigint steps;    // done since the fix was made, restarts included: what random numbers depend on
   struct {

@@ -19,9 +19,14 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "group.h"
+#include "helfrich_model.h"
 #include "membrane_mass_kinds.h"
+#include "pair.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +36,15 @@ using Membrane_NS::MassKind;
 using Membrane_NS::MassOperator;
 using Membrane_NS::VertexField;
 
+// mass sampling: the reference is renewed when normals have turned by 40 degrees or so: at kc = 20 kT
+// those of a membrane in equilibrium turn by 12
+static constexpr double MOST_DISTANCE = 0.25;
+
 /* ---------------------------------------------------------------------- */
 
 HDMass::HDMass(LAMMPS *lmp, int igroup, std::string user) :
     Pointers(lmp), groupbit(group->bitmask[igroup]), user(std::move(user)),
-    points(lmp, igroup, this->user), drag(0.0), reported(false)
+    points(lmp, igroup, this->user), drag(0.0), reported(false), numberings(0), renewals(-1)
 {
 }
 
@@ -47,7 +56,10 @@ int HDMass::parse(int iarg, int narg, char **arg)
   const std::string value = arg[iarg + 1];
   if (key == "mass") {
     if (!Membrane_NS::find_mass_kind(value, settings.kind))
-      error->all(FLERR, "{} mass {} is not vertex, consistent or lumped", user, value);
+      error->all(FLERR, "{} mass {} is not vertex, consistent, lumped or sampling", user, value);
+    settings.reference.reset();
+    if (settings.kind == MassKind::SAMPLING)
+      settings.reference = std::make_shared<Membrane_NS::SharedReference>();
   } else if (key == "solver") {
     if (value != "direct" && value != "iterative")
       error->all(FLERR, "{} solver {} is not iterative or direct", user, value);
@@ -64,8 +76,9 @@ int HDMass::parse(int iarg, int narg, char **arg)
 
 void HDMass::init(bool other_atoms)
 {
-  if (settings.direct && settings.kind == MassKind::LUMPED)
-    error->all(FLERR, "{} solver direct: mass lumped needs no solver", user);
+  if (settings.direct && (settings.kind == MassKind::LUMPED || settings.kind == MassKind::SAMPLING))
+    error->all(FLERR, "{} solver direct: mass {} needs no solver", user,
+               Membrane_NS::mass_kind_name(settings.kind));
   points.init(other_atoms);
   if (drag == 0.0) check_masses();
   reported = false;
@@ -87,7 +100,16 @@ void HDMass::check_masses()
 
 void HDMass::refresh()
 {
-  if (!points.follow(Membrane_NS::mass_halo_rings(settings.kind))) return;
+  const bool renumbered = points.follow(Membrane_NS::mass_halo_rings(settings.kind));
+  auto *reference = settings.reference.get();
+  if (reference) {
+    const auto npoints = (size_t) mesh().topology().num_vertices();
+    if (!reference->now || reference->now->shape.points.size() != npoints) take_reference();
+  }
+  if (!renumbered && !(reference && reference->renewals != renewals)) return;
+  ++numberings;
+  if (reference) renewals = reference->renewals;
+  settings.unit = (drag > 0.0 ? drag : 1.0) / force->mvv2e;    // of time is 1
 
   const int n = mesh().topology().num_vertices();
   std::vector<double> masses(n, 0.0);
@@ -102,6 +124,88 @@ void HDMass::refresh()
     error->all(FLERR, "{}: {}", user, err.what());
   }
 }
+
+/* ----------------------------------------------------------------------
+   mass sampling
+------------------------------------------------------------------------- */
+
+void HDMass::take_reference()
+{
+  Pair *pair = force->pair_match("helfrich", 1);
+  int dim;
+  auto *model = pair ? static_cast<HelfrichModel *>(pair->extract("model", dim)) : nullptr;
+  if (!model) error->all(FLERR, "{} mass sampling is made of what pair_style helfrich resists: use it", user);
+  settings.reference->now =
+      std::make_shared<const Membrane_NS::StiffnessReference>(model->describe());
+  ++settings.reference->renewals;
+}
+
+bool HDMass::renew()
+{
+  if (!settings.reference) return false;
+  refresh();
+  Membrane_NS::TriangleMesh shape = mesh().triangle_mesh();
+  VertexField mine(part().size()), all(shape.points.size(), Membrane_NS::Vector4{});
+  for (int i = 0; i < part().owned; ++i) {
+    const int j = part().atom_of(i);
+    domain->unmap(atom->x[j], atom->image[j], mine[i].c);
+    mine[i].c[3] = 1.0;
+  }
+  part().gather(mine, all);
+  const auto &reference = *settings.reference->now;
+  for (size_t v = 0; v < all.size(); ++v)
+    shape.points[v] = all[v].c[3] > 0.0 ? Eigen::Vector3d(all[v].c) : reference.shape.points[v];
+  const double distance = reference.distance(shape, mesh().topology());
+  if (!(distance > MOST_DISTANCE)) return false;
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "{} mass sampling: at step {} the shape has left the reference (1 - cos of normals: "
+                   "{:.2g}), which is taken anew: what came before is equilibration, not sampling\n",
+                   user, update->ntimestep, distance);
+  take_reference();
+  refresh();
+  return true;
+}
+
+static void archive_points(RestartArchive &file, std::vector<Eigen::Vector3d> &points)
+{
+  std::vector<double> numbers;
+  for (const auto &p : points) numbers.insert(numbers.end(), p.data(), p.data() + 3);
+  file(numbers);
+  if (!file.is_reading()) return;
+  points.clear();
+  for (size_t i = 0; i + 2 < numbers.size(); i += 3) points.emplace_back(&numbers[i]);
+}
+
+void HDMass::archive(RestartArchive &file)
+{
+  char known = settings.reference && settings.reference->now;
+  file(known);
+  if (!known) return;
+  Membrane_NS::StiffnessReference reference;
+  if (!file.is_reading()) reference = *settings.reference->now;
+  archive_points(file, reference.shape.points);
+  for (auto *numbers : {&reference.kc, &reference.tension, &reference.shear, &reference.stretch})
+    file(*numbers);
+  file(reference.closed);
+  auto count = static_cast<int>(reference.totals.size());
+  file(count);
+  if (file.is_reading()) reference.totals.resize(file.ok() ? count : 0);
+  for (auto &total : reference.totals) {
+    file(total.stiffness);
+    archive_points(file, total.gradient);
+  }
+  std::vector<double> box(reference.shape.lattice.data(), reference.shape.lattice.data() + 9);
+  file(box);
+  for (bool &along : reference.shape.periodic) file(along);
+  if (!file.is_reading() || !file.ok() || !settings.reference) return;
+  std::copy_n(box.begin(), 9, reference.shape.lattice.data());
+  settings.reference->now =
+      std::make_shared<const Membrane_NS::StiffnessReference>(std::move(reference));
+  ++settings.reference->renewals;
+}
+
+/* ---------------------------------------------------------------------- */
 
 void HDMass::report_missed_tolerance()
 {

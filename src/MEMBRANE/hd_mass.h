@@ -16,6 +16,7 @@
 
 #include "membrane_mass.h"
 #include "mesh_group.h"
+#include "restart_archive.h"
 
 #include <memory>
 #include <string>
@@ -47,6 +48,9 @@ class HDMass : protected Pointers {
   void init(bool other_atoms = false);
   /// Collective; call before using part() or matrix() in a time step.
   void refresh();
+  /** Collective, for mass sampling: whether the shape has left the reference, which is then taken anew, with
+      a message. Velocities of the old mass are not those of the new one. False for other masses. */
+  bool renew();
   /// Collective: warn, once a run, if a solution has missed the tolerance.
   void report_missed_tolerance();
 
@@ -55,13 +59,15 @@ class HDMass : protected Pointers {
   DistributedMesh &mesh() { return points.mesh(); }
   MeshPart &part() { return points.part(); }
   Membrane_NS::MassOperator &matrix() { return *mass; }
-  /// Differs after a refresh() that numbered the vertices of the part anew.
-  bigint numbering() const { return points.numbering(); }
+  /// Differs after a refresh() that made the matrix anew.
+  bigint numbering() const { return numberings; }
   /// Control points of the group, on all ranks.
   bigint count() const { return points.count(); }
   /// v^T M v of the atoms' velocities, xx yy zz xy xz yz; summed over ranks.
   void kinetic(double *);
   double memory_usage() const { return mass ? mass->memory_usage() : 0.0; }
+  /// What restart files keep: the reference of mass sampling.
+  void archive(RestartArchive &);
 
  private:
   int groupbit;
@@ -70,8 +76,11 @@ class HDMass : protected Pointers {
   std::unique_ptr<Membrane_NS::MassOperator> mass;
   double drag;
   bool reported;    // a missed tolerance, in this run
+  bigint numberings;
+  int64_t renewals;    // of the reference that the matrix is for
 
   void check_masses();
+  void take_reference();
 };
 
 }    // namespace LAMMPS_NS

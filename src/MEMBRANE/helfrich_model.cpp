@@ -47,7 +47,7 @@ static std::vector<std::unique_ptr<HelfrichTerm>> make_terms(LAMMPS *lmp)
   terms.push_back(std::make_unique<HelfrichTermBending>(lmp));
   for (auto make : {make_gauss_term, make_tension_term, make_area_term, make_area_difference_term,
                     make_local_area_term, make_volume_term, make_pressure_term,
-                    make_regularize_term})
+                    make_regularize_term, make_measure_term})
     terms.push_back(make(lmp));
   return terms;
 }
@@ -83,10 +83,11 @@ void HelfrichModel::set_coefficients(const std::vector<int> &types, int narg, ch
   while (iarg < narg) {
     const std::string keyword = arg[iarg];
     const auto term = std::find_if(terms.begin() + 1, terms.end(),
-                                   [&](auto &t) { return t->keyword == keyword; });
+                                   [&](auto &t) { return t->is_keyword() && t->keyword == keyword; });
     if (term == terms.end()) {
       std::string known;
-      for (size_t i = 1; i < terms.size(); ++i) known += (i > 1 ? ", " : "") + terms[i]->keyword;
+      for (size_t i = 1; i < terms.size(); ++i)
+        if (terms[i]->is_keyword()) known += (i > 1 ? ", " : "") + terms[i]->keyword;
       error->all(FLERR, "Unknown pair_coeff helfrich keyword {}; known are: {}", keyword, known);
     }
     iarg += (*term)->parse(types, HelfrichWords(lmp, narg - iarg, arg + iarg));
@@ -142,9 +143,8 @@ void HelfrichModel::choose()
   const int nmembranes = static_cast<int>(scene.types.size());
   std::vector<char> has_totals(nmembranes, 0);
   for (int m = 0; m < nmembranes; ++m)
-    for (int t : scene.types[m])
-      for (auto &term : terms)
-        if (term->of_whole_membrane() && term->acts_on(t)) has_totals[m] = 1;
+    for (auto &term : terms)
+      if (term->of_whole_membrane() && term->is_in(scene, m)) has_totals[m] = 1;
   scene.excluded = exclusion.find_membranes(*scene.mesh, has_totals);
 
   present.clear();
@@ -152,7 +152,7 @@ void HelfrichModel::choose()
   for (auto &term : terms) {
     bool found = false;
     for (int m = 0; m < nmembranes; ++m)
-      for (int t : scene.types[m]) found = found || (!scene.excluded[m] && term->acts_on(t));
+      found = found || (!scene.excluded[m] && term->is_in(scene, m));
     if (!found) continue;
     present.push_back(term.get());
     const HelfrichTerm::Needs more = term->needs();
@@ -223,6 +223,18 @@ void HelfrichModel::check_membrane(int m)
                    "volume and pressure from pair_coeff {} {}",
                    molecule, t, t);
     }
+  const bool shape_needed = std::any_of(terms.begin(), terms.end(), [&](auto &term) {
+    return term->needs().regularize && term->is_in(scene, m);
+  });
+  const auto &regularize = *std::find_if(terms.begin(), terms.end(),
+                                         [](auto &term) { return term->keyword == "regularize"; });
+  for (int t : scene.types[m])
+    if (shape_needed && !regularize->acts_on(t))
+      error->all(FLERR,
+                 "Membrane {} is sampled at a temperature without anything that keeps its faces in "
+                 "shape: add regularize to pair_coeff {} {}, half of kc is a good value, or say measure "
+                 "no in the fix",
+                 molecule, t, t);
 }
 
 /* ----------------------------------------------------------------------
@@ -275,21 +287,22 @@ void HelfrichModel::act()
    gradient of the volume through the centre it is measured from, see MeshTotals
 ------------------------------------------------------------------------- */
 
-void HelfrichModel::share_volume_recoil()
+void HelfrichModel::share_volume_recoil(double (*f)[3])
 {
   const auto &topology = scene.mesh->topology();
   for (const auto &[i, v] : scene.mesh->owned_points()) {
     const int c = topology.component(v), m = scene.mesh->membrane(c);
     if (!membrane_volume[m]) continue;
     const double share = scene.conjugates[m].pressure / (3.0 * topology.num_vertices(c));
-    for (int k = 0; k < 3; ++k)
-      atom->f[i][k] += share * scene.totals.components()[c].vector_area[k];
+    for (int k = 0; k < 3; ++k) f[i][k] += share * scene.totals.components()[c].vector_area[k];
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void HelfrichModel::compute(const Wanted &wanted)
+// the scene of this step up to the forces; whether there was a first pass
+
+bool HelfrichModel::prepare(const Wanted &wanted)
 {
   const MeshChange changed = scene.mesh.follow();
   if (changed == MeshChange::TOPOLOGY) choose();
@@ -298,7 +311,12 @@ void HelfrichModel::compute(const Wanted &wanted)
   const bool first_pass = needs.totals || (wanted.total_volume && reports_volume);
   if (first_pass) measure(wanted);
   if (needs.totals) act();
+  return first_pass;
+}
 
+void HelfrichModel::compute(const Wanted &wanted)
+{
+  const bool first_pass = prepare(wanted);
   const int nslots = scene.nslots(), nall = atom->nlocal + atom->nghost;
   for (auto *sum : {&scene.energies.bending, &scene.energies.gauss, &scene.energies.area})
     sum->resize(wanted.energy ? nslots : 0);
@@ -312,7 +330,7 @@ void HelfrichModel::compute(const Wanted &wanted)
     face_forces(group, x, scene.model, kernel, f, scene.energies);
     points += 1.0 * group.nfaces * group.rule->npoints;
   }
-  if (needs.volume) share_volume_recoil();
+  if (needs.volume) share_volume_recoil(f);
   for (HelfrichTerm *term : present) term->add_forces(scene, x, f);
   if (wanted.energy) collect(first_pass ? 2.0 * points : points);
 }

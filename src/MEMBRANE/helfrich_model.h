@@ -17,6 +17,7 @@
 #include "helfrich_scene.h"
 #include "helfrich_term.h"
 #include "helfrich_term_bending.h"
+#include "membrane_mass_reference.h"
 #include "mesh_exclusion.h"
 
 #include <memory>
@@ -62,6 +63,9 @@ class HelfrichModel : protected Pointers {
   /// [slots][6] xx yy zz xy xz yz, if wanted.
   const std::vector<double> &virials() const { return scene.energies.virial; }
 
+  /// Collective: what membranes resist at their present shape.
+  Membrane_NS::StiffnessReference describe();
+
   // === At the end of a run
 
   /// Collective. Warns if a finer rule sees another energy.
@@ -97,9 +101,11 @@ class HelfrichModel : protected Pointers {
   void find_types();
   void check_membrane(int m);
   void localize();
+  bool prepare(const Wanted &);
   void measure(const Wanted &);
   void act();
-  void share_volume_recoil();
+  void share_volume_recoil(double (*f)[3]);
+  std::vector<Eigen::Vector3d> gradient(int m, double Conjugates::*of);
   void collect(double points);
   double bending_energy(Membrane_NS::PatchRules &);
 };

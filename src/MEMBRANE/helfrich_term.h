@@ -19,6 +19,7 @@
 #include "pointers.h"
 #include "restart_archive.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ namespace HelfrichOutput {
     REGULARIZATION,
     POINTS,
     AREA_DIFFERENCE,
+    MEASURE,
     COUNT
   };
 }
@@ -53,8 +55,15 @@ struct HelfrichTally {
   }
 };
 
-/** A term of the energy of membranes: one keyword of pair_coeff, one file helfrich_term_*.cpp, one
-    line in the list of HelfrichModel.
+/// Second derivatives of the energy, in outline, to which terms add theirs.
+struct HelfrichStiffness {
+  std::vector<double> shear;          ///< by slot, energy: of regularize
+  std::vector<double> stretch;        ///< by slot, energy/area: of local area
+  std::vector<Conjugates> totals;     ///< by membrane: d2E/dA2, d2E/dV2, d2E/dM2
+};
+
+/** A term of the energy of membranes: one keyword of pair_coeff as a rule, one file
+    helfrich_term_*.cpp, one line in the list of HelfrichModel.
 
     Most derive from TermWith, which keeps coefficients by type, and those of total area, volume or
     curvature from TermOfTotals. A term that a scene does not have is not called beyond choose(). */
@@ -70,13 +79,15 @@ class HelfrichTerm : protected Pointers {
 
   // === Coefficients, by type of control points from 1
 
+  /// Whether pair_coeff knows the keyword; if not, others say that the term is there.
+  virtual bool is_keyword() const { return true; }
   /// Room for types below n, all without this term.
-  virtual void resize(int n) = 0;
-  virtual void clear(int type) = 0;
+  virtual void resize(int /*n*/) {}
+  virtual void clear(int /*type*/) {}
   /// What pair_coeff says for these types; returns the number of words, the keyword included.
-  virtual int parse(const std::vector<int> &types, const HelfrichWords &words) = 0;
-  virtual bool acts_on(int type) const = 0;
-  virtual void archive_coefficients(RestartArchive &) = 0;
+  virtual int parse(const std::vector<int> & /*types*/, const HelfrichWords &) { return 0; }
+  virtual bool acts_on(int /*type*/) const { return false; }
+  virtual void archive_coefficients(RestartArchive &) {}
 
   // === Terms of whole membranes: the same for all types of a membrane, which is excluded whole or not
 
@@ -92,13 +103,20 @@ class HelfrichTerm : protected Pointers {
     bool curvature = false;    ///< and integral of 2H
     bool gauss = false;        ///< the integral of K
     bool origins = false;      ///< which membranes are those of an earlier run
+    bool regularize = false;   ///< faces that regularize keeps in shape
   };
   virtual Needs needs() const { return {}; }
 
   // === Life cycle, in this order
 
-  /// Before a run, and when faces changed: call before present() and acts_on().
+  /// Collective; before a run, and when faces changed: call before acts_on() and is_in().
   virtual void choose(const HelfrichScene &) {}
+  /// Whether membrane m has this term, on any of its types.
+  virtual bool is_in(const HelfrichScene &scene, int m) const
+  {
+    const auto &types = scene.types[m];
+    return std::any_of(types.begin(), types.end(), [this](int type) { return acts_on(type); });
+  }
   /// Then finds what it has kept of these membranes, but not of those with `anew`; collective.
   virtual void find_references(const HelfrichScene &, const std::vector<char> & /*anew*/) {}
   /// Local coefficients, after atoms changed ranks: those of the model that this term owns.
@@ -111,6 +129,8 @@ class HelfrichTerm : protected Pointers {
   virtual void act_on_faces(HelfrichScene &) {}
   /// After the second pass: forces besides the kernel's. x and f are [atoms][3].
   virtual void add_forces(HelfrichScene &, const double (*)[3], double (*)[3]) {}
+  /// Adds what it resists, at the totals of the last step.
+  virtual void add_stiffness(const HelfrichScene &, HelfrichStiffness &) {}
   /// Adds its energy, face by face.
   virtual void tally(const HelfrichScene &, HelfrichTally &) const {}
 };
@@ -163,6 +183,7 @@ std::unique_ptr<HelfrichTerm> make_local_area_term(class LAMMPS *);
 std::unique_ptr<HelfrichTerm> make_volume_term(class LAMMPS *);
 std::unique_ptr<HelfrichTerm> make_pressure_term(class LAMMPS *);
 std::unique_ptr<HelfrichTerm> make_regularize_term(class LAMMPS *);
+std::unique_ptr<HelfrichTerm> make_measure_term(class LAMMPS *);
 
 }    // namespace LAMMPS_NS
 

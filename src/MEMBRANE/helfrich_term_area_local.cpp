@@ -72,6 +72,10 @@ class LocalAreaTerm : public TermWith<Coefficients> {
   void take_references(HelfrichScene &) override;
   void act_on_faces(HelfrichScene &) override;
   void tally(const HelfrichScene &, HelfrichTally &) const override;
+  void add_stiffness(const HelfrichScene &, HelfrichStiffness &stiffness) override
+  {
+    for (size_t slot = 0; slot < modulus.size(); ++slot) stiffness.stretch[slot] += modulus[slot];
+  }
 
  protected:
   int read(const HelfrichWords &words, Coefficients &c) const override

@@ -61,6 +61,10 @@ class RegularizeTerm : public TermWith<Coefficients> {
   void localize(const std::vector<FaceGroup> &, FaceModel &) override;
   void add_forces(HelfrichScene &, const double (*)[3], double (*)[3]) override;
   void tally(const HelfrichScene &, HelfrichTally &) const override;
+  void add_stiffness(const HelfrichScene &, HelfrichStiffness &stiffness) override
+  {
+    for (size_t slot = 0; slot < modulus.size(); ++slot) stiffness.shear[slot] += modulus[slot];
+  }
 
  protected:
   int read(const HelfrichWords &words, Coefficients &c) const override

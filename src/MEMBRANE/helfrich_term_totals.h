@@ -17,6 +17,7 @@
 #include "helfrich_term.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -47,6 +48,21 @@ template <class Coefficients> class TermOfTotals : public TermWith<Coefficients>
     }
   }
 
+  void add_stiffness(const HelfrichScene &scene, HelfrichStiffness &stiffness) override
+  {
+    for (size_t m = 0; m < scene.types.size(); ++m) {
+      const Coefficients *c = of_membrane(scene, m);
+      if (!c) continue;
+      const MeshTotals::Total &total = scene.totals.membranes()[m];
+      const double length = std::sqrt(total.area);
+      add_second(*c, m, total, &MeshTotals::Total::area, &Conjugates::tension, length * length,
+                 stiffness);
+      add_second(*c, m, total, &MeshTotals::Total::volume, &Conjugates::pressure,
+                 length * length * length, stiffness);
+      add_second(*c, m, total, &MeshTotals::Total::curvature, &Conjugates::moment, length, stiffness);
+    }
+  }
+
   void tally(const HelfrichScene &scene, HelfrichTally &tally) const override
   {
     for (const Membrane_NS::FaceGroup &group : scene.groups)
@@ -73,6 +89,22 @@ template <class Coefficients> class TermOfTotals : public TermWith<Coefficients>
 
  private:
   std::vector<double> density;    // energy over area, by membrane
+
+  // by a difference of slopes
+
+  void add_second(const Coefficients &c, size_t m, const MeshTotals::Total &at,
+                  double MeshTotals::Total::*by, double Conjugates::*slope, double scale,
+                  HelfrichStiffness &stiffness) const
+  {
+    const double step = 1.0e-4 * scale;
+    MeshTotals::Total above = at, below = at;
+    above.*by += step;
+    below.*by -= step;
+    Conjugates up, down;
+    law(c, static_cast<int>(m), above, up);
+    law(c, static_cast<int>(m), below, down);
+    stiffness.totals[m].*slope += (up.*slope - down.*slope) / (2.0 * step);
+  }
 };
 
 /// A modulus and what a total is compared with; "init" takes it at the first step.

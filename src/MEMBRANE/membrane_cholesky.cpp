@@ -54,46 +54,77 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
 /* ----------------------------------------------------------------------
    G y = P x by rows of G, from the first to the last, G^T z = y by its columns, from the last to the
    first: each time what is known of the others is taken off, in four sums, so that one does not wait
-   for the other
+   for the other. Fields of a vertex are side by side in z
 ------------------------------------------------------------------------- */
+
+template <class Number, int FIELDS>
+void SparseCholesky::eliminate(int j, const Lines &lines, Number *z) const
+{
+  constexpr int SUMS = 4;
+  const int *place = lines.place.data(), last = lines.start[j + 1];
+  const double *value = lines.value.data();
+  Number sum[SUMS][FIELDS] = {};
+  for (int f = 0; f < FIELDS; ++f) sum[0][f] = z[FIELDS * j + f];
+  int k = lines.start[j];
+  for (; k + SUMS <= last; k += SUMS)
+    for (int i = 0; i < SUMS; ++i)
+      for (int f = 0; f < FIELDS; ++f) sum[i][f] -= value[k + i] * z[FIELDS * place[k + i] + f];
+  for (; k < last; ++k)
+    for (int f = 0; f < FIELDS; ++f) sum[0][f] -= value[k] * z[FIELDS * place[k] + f];
+  for (int f = 0; f < FIELDS; ++f)
+    z[FIELDS * j + f] =
+        inverse_diagonal_[j] * ((sum[0][f] + sum[1][f]) + (sum[2][f] + sum[3][f]));
+}
 
 template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *, FIELDS> &x)
 {
   const int n = size();
   work_.resize((size_t) FIELDS * n);
-  Vector4 *z = work_.data();    // fields of a vertex side by side
   for (int i = 0; i < n; ++i)
-    for (int f = 0; f < FIELDS; ++f) z[FIELDS * place_[i] + f] = (*x[f])[i];
-  constexpr int SUMS = 4;
-  const auto solve_for = [&](int j, const Lines &lines) {
-    const int *place = lines.place.data(), last = lines.start[j + 1];
-    const double *value = lines.value.data();
-    Quad sum[SUMS][FIELDS] = {};
-    for (int f = 0; f < FIELDS; ++f) sum[0][f] = quad(z[FIELDS * j + f]);
-    int k = lines.start[j];
-    for (; k + SUMS <= last; k += SUMS)
-      for (int i = 0; i < SUMS; ++i)
-        for (int f = 0; f < FIELDS; ++f)
-          sum[i][f] -= value[k + i] * quad(z[FIELDS * place[k + i] + f]);
-    for (; k < last; ++k)
-      for (int f = 0; f < FIELDS; ++f) sum[0][f] -= value[k] * quad(z[FIELDS * place[k] + f]);
-    for (int f = 0; f < FIELDS; ++f)
-      quad(z[FIELDS * j + f]) =
-          inverse_diagonal_[j] * ((sum[0][f] + sum[1][f]) + (sum[2][f] + sum[3][f]));
-  };
-  for (int j = 0; j < n; ++j) solve_for(j, rows_);
-  for (int j = n - 1; j >= 0; --j) solve_for(j, columns_);
+    for (int f = 0; f < FIELDS; ++f) work_[FIELDS * place_[i] + f] = (*x[f])[i];
+  Quad *z = reinterpret_cast<Quad *>(work_.data());
+  for (int j = 0; j < n; ++j) eliminate<Quad, FIELDS>(j, rows_, z);
+  for (int j = n - 1; j >= 0; --j) eliminate<Quad, FIELDS>(j, columns_, z);
   for (int i = 0; i < n; ++i)
-    for (int f = 0; f < FIELDS; ++f) (*x[f])[i] = z[FIELDS * place_[i] + f];
+    for (int f = 0; f < FIELDS; ++f) (*x[f])[i] = work_[FIELDS * place_[i] + f];
 }
 
 template void SparseCholesky::solve<1>(const std::array<VertexField *, 1> &);
 template void SparseCholesky::solve<2>(const std::array<VertexField *, 2> &);
 
+void SparseCholesky::solve(std::vector<double> &x)
+{
+  const int n = size();
+  scalar_work_.resize(n);
+  for (int i = 0; i < n; ++i) scalar_work_[place_[i]] = x[i];
+  for (int j = 0; j < n; ++j) eliminate<double, 1>(j, rows_, scalar_work_.data());
+  for (int j = n - 1; j >= 0; --j) eliminate<double, 1>(j, columns_, scalar_work_.data());
+  for (int i = 0; i < n; ++i) x[i] = scalar_work_[place_[i]];
+}
+
+void SparseCholesky::colour(VertexField &x)
+{
+  const int n = size();
+  work_.resize(n);
+  for (int i = 0; i < n; ++i) work_[place_[i]] = x[i];
+  Quad *z = reinterpret_cast<Quad *>(work_.data());
+  for (int j = n - 1; j >= 0; --j) eliminate<Quad, 1>(j, columns_, z);
+  for (int i = 0; i < n; ++i) x[i] = work_[place_[i]];
+}
+
+void SparseCholesky::colour(std::vector<double> &x)
+{
+  const int n = size();
+  scalar_work_.resize(n);
+  for (int i = 0; i < n; ++i) scalar_work_[place_[i]] = x[i];
+  for (int j = n - 1; j >= 0; --j) eliminate<double, 1>(j, columns_, scalar_work_.data());
+  for (int i = 0; i < n; ++i) x[i] = scalar_work_[place_[i]];
+}
+
 double SparseCholesky::memory_usage() const
 {
   double bytes = sizeof(int) * place_.capacity() + sizeof(double) * inverse_diagonal_.capacity() +
-      sizeof(Vector4) * work_.capacity();
+      sizeof(Vector4) * work_.capacity() + sizeof(double) * scalar_work_.capacity();
   for (const Lines *lines : {&rows_, &columns_})
     bytes += sizeof(int) * (lines->start.capacity() + lines->place.capacity()) +
         sizeof(double) * lines->value.capacity();

@@ -24,7 +24,7 @@
 namespace Membrane_NS {
 
 /** A symmetric, positive definite sparse matrix A, factorized: P A P^T = G G^T with a permutation P
-    that keeps G sparse, which Eigen finds. Solves for the four numbers of a vertex at once. */
+    that keeps G sparse, which Eigen finds. Solves for the four numbers of a vertex at once, or for one. */
 class SparseCholesky {
  public:
   /// Both triangles of A, or the lower one. MeshError if it is not positive definite.
@@ -34,6 +34,12 @@ class SparseCholesky {
   void solve(VertexField &x) { solve<1>({&x}); }
   /// The same for two, in less than the time of one after the other.
   void solve(VertexField &x, VertexField &y) { solve<2>({&x, &y}); }
+  void solve(std::vector<double> &x);
+  /// x = P^T G^-T x, so that white noise becomes noise with <x x^T> = A^-1
+  void colour(VertexField &x);
+  void colour(std::vector<double> &x);
+  /// Numbers in G.
+  size_t fill() const { return columns_.value.size() + place_.size(); }
   double memory_usage() const;
 
  private:
@@ -45,8 +51,10 @@ class SparseCholesky {
   Lines rows_, columns_;
   std::vector<double> inverse_diagonal_;
   VertexField work_;
+  std::vector<double> scalar_work_;
 
   template <int FIELDS> void solve(const std::array<VertexField *, FIELDS> &x);
+  template <class Number, int FIELDS> void eliminate(int j, const Lines &lines, Number *z) const;
 };
 
 /** A matrix over all vertices of a mesh, factorized, for fields on the part of a rank. Every rank holds

@@ -30,8 +30,11 @@ namespace Membrane_NS {
 enum class MassKind {
   VERTEX,        ///< point masses at the limit positions of the vertices: M = L^T D L
   CONSISTENT,    ///< spread evenly over the parameters of each face (Galerkin)
-  LUMPED         ///< on the control points themselves: right equilibrium, wrong dynamics
+  LUMPED,        ///< on the control points themselves: right equilibrium, wrong dynamics
+  SAMPLING       ///< stiffness in place of mass: equilibrium in few steps, no dynamics
 };
+
+struct SharedReference;
 
 /// What a mass matrix is made of: the vertices of a rank, with numbers for all of the topology.
 struct VertexMasses {
@@ -54,6 +57,8 @@ class MassOperator {
     bool direct = false;           ///< by Cholesky; not LUMPED
     double tolerance = 1.0e-10;    ///< of the residual, relative to the right-hand side
     int most_passes = 1000;        ///< of conjugate gradients, which need some 30 to 200
+    std::shared_ptr<SharedReference> reference;    ///< SAMPLING only
+    double unit = 1.0;             ///< likewise: mass over stiffness, the square of the unit of time
   };
 
   virtual ~MassOperator() = default;
@@ -81,6 +86,14 @@ class MassOperator {
   /// If so: the same with one number per owned vertex, for the momenta of these masses.
   virtual void relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
                      VertexField &v);
+
+  // === Motions that there are not
+
+  /// How many of the 3 n directions have no velocity.
+  virtual int lost_freedoms() const { return 0; }
+  /** Adds to f, for owned vertices, what makes up for them in the equilibrium of shapes. x: coordinates of
+      owned vertices, unwrapped; kT in units of f times x. Collective. */
+  virtual void add_gauge_forces(double /*kT*/, const VertexField & /*x*/, VertexField & /*f*/) {}
 
   // === What a solution costs and gives
 

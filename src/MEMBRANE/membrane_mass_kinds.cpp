@@ -19,6 +19,7 @@
 
 #include "membrane_mass_consistent.h"
 #include "membrane_mass_lumped.h"
+#include "membrane_mass_sampling.h"
 #include "membrane_mass_vertex.h"
 
 using namespace Membrane_NS;
@@ -41,7 +42,8 @@ struct Kind {
 };
 constexpr Kind KINDS[] = {{"vertex", 1, make<VertexMass>},
                           {"consistent", 3, make<ConsistentMass>},
-                          {"lumped", 0, make<LumpedMass>}};
+                          {"lumped", 0, make<LumpedMass>},
+                          {"sampling", 0, make<SamplingMass>}};
 
 const Kind &description(MassKind kind)
 {

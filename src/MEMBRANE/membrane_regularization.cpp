@@ -17,7 +17,7 @@
 
 #include "membrane_regularization.h"
 
-#include <Eigen/Dense>
+#include "membrane_corner_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,8 +58,8 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
   for (int s = 0; s < group.nfaces; ++s) {
     const int slot = group.first_slot + s;
     if (modulus[slot] == 0.0) continue;
-    const int corner[3] = {group.point(s, 0), group.point(s, 1), group.point(s, 2)};
-    const Vector3d p[3] = {Vector3d(x[corner[0]]), Vector3d(x[corner[1]]), Vector3d(x[corner[2]])};
+    const FaceCorners corners(group, s, x);
+    const Vector3d *p = corners.place;
     const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
     const double twice_area = normal.norm(), area = 0.5 * twice_area;
     const double edges = (p[1] - p[0]).squaredNorm() + (p[2] - p[1]).squaredNorm() +
@@ -73,25 +73,12 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
 
     const double stretch = 2.0 * INVERSE_4_SQRT_3 * modulus[slot] / area,
                  spread = 0.25 * modulus[slot] * ratio / (area * area);
-    Vector3d force[3];
+    Vector3d force[2];
     for (int k = 0; k < 2; ++k) {
       const Vector3d &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
       force[k] = spread * normal.cross(c - b) - stretch * (2.0 * a - b - c);
     }
-    force[2] = -force[0] - force[1];
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) f[corner[k]][i] += force[k][i];
-    if (virial.empty()) continue;
-    for (int k = 1; k < 3; ++k) {
-      const Vector3d r = p[k] - p[0];
-      double *v = &virial[6 * static_cast<size_t>(slot)];
-      v[0] += r[0] * force[k][0];
-      v[1] += r[1] * force[k][1];
-      v[2] += r[2] * force[k][2];
-      v[3] += r[0] * force[k][1];
-      v[4] += r[0] * force[k][2];
-      v[5] += r[1] * force[k][2];
-    }
+    corners.add(force, f, virial.empty() ? nullptr : &virial[6 * static_cast<size_t>(slot)]);
   }
   return worst;
 }

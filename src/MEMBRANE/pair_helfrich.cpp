@@ -283,6 +283,8 @@ void PairHelfrich::read_restart(FILE *fp)
 
 void *PairHelfrich::extract(const char *name, int &dim)
 {
+  dim = 0;
+  if (strcmp(name, "model") == 0) return &model;
   if (strcmp(name, "kc") != 0) return nullptr;
   dim = 1;
   moduli = model.bending_moduli();

@@ -151,6 +151,8 @@ SRDMeshArguments SRDMeshArguments::parse(LAMMPS *lmp, int narg, char **arg)
       given.set_velocities = choice({"keep", "create"}) == 1;
     } else if (key == "ghosts") {
       given.ghosts = utils::logical(FLERR, word, false, lmp);
+    } else if (key == "measure") {
+      given.measure = utils::logical(FLERR, word, false, lmp);
     } else if (key == "wall") {
       given.walls.noslip = choice({"slip", "noslip"}) == 1;
     } else if (key == "wall/velocity") {
@@ -161,7 +163,7 @@ SRDMeshArguments SRDMeshArguments::parse(LAMMPS *lmp, int narg, char **arg)
       error->all(FLERR,
                  "Unknown fix srd/mesh keyword {}; known are: lamda, angle, method, collision, "
                  "impulse, level, inside, bounce, search, cubic, shift, tstat, velocity, "
-                 "ghosts, wall, wall/velocity",
+                 "ghosts, measure, wall, wall/velocity",
                  key);
     iarg += used;
   }

@@ -34,6 +34,7 @@ struct SRDMeshArguments {
   double cubic_tolerance = 0.01;
   enum class Inside { ERROR, WARN, IGNORE } inside = Inside::WARN;
   bool noslip = true, control = false, set_velocities = true, ghosts = false;
+  bool measure = true;    ///< membranes are sampled at the solvent's temperature
   int level = 0, bounces = 0;
   double search = 0.0;
   Membrane_NS::BoxWalls walls;    ///< how they collide and move

@@ -1,0 +1,402 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "membrane_mass_sampling.h"
+
+#include "membrane_cotangent.h"
+#include "membrane_random.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace Membrane_NS;
+using Eigen::Map;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// B = kc (K D^-1 K + s a K + t a^2 D), a = 4 pi/area: exact for a sphere but for t, which keeps it
+// positive, and for a plane. Tension may make s as small as LEAST
+
+struct Undulations {
+  double s, t;
+};
+static constexpr Undulations CLOSED = {-2.0, 1.5}, CONTINUING = {0.0, 0.25};
+static constexpr double LEAST[] = {-2.2, -0.8};    // > -2 sqrt(t)
+
+// T = FACTOR sum over faces of shear (K_f/A_f + FLOOR a D_f/A_f): see the derivation
+
+static constexpr double SHEAR_FACTOR = 2.0, SHEAR_FLOOR = 4.0;
+
+// of conjugate gradients with M^-1, and when they have got nowhere
+
+static constexpr double TOLERANCE = 1.0e-10;
+static constexpr int MOST_PASSES = 200;
+
+/* ---------------------------------------------------------------------- */
+
+double StiffnessReference::distance(const TriangleMesh &now, const Topology &topology) const
+{
+  const FlatAreas before(shape, topology), after(now, topology);
+  double sum = 0.0;
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    sum += 1.0 - before.normals[v].dot(after.normals[v]);
+  return sum / topology.num_vertices();
+}
+
+/* ---------------------------------------------------------------------- */
+
+SamplingMass::SamplingMass(const VertexMasses &vertices, const Settings &settings) :
+    MassOperator(vertices.part), settings_(settings), labels_(vertices.labels)
+{
+  const Topology &topology = vertices.topology;
+  all_.assign(topology.num_vertices(), Vector4{});
+  along_.assign(topology.num_vertices(), 0.0);
+  build_factors(topology, vertices.masses);
+  build_totals(topology);
+}
+
+static SparseMatrix diagonal(const VectorXd &d)
+{
+  SparseMatrix matrix(d.size(), d.size());
+  matrix.reserve(Eigen::VectorXi::Ones(d.size()));
+  for (int i = 0; i < d.size(); ++i) matrix.insert(i, i) = d[i];
+  return matrix;
+}
+
+void SamplingMass::build_factors(const Topology &topology, const std::vector<double> &masses)
+{
+  const StiffnessReference &reference = *settings_.reference->now;
+  const int n = topology.num_vertices();
+  const FlatAreas areas(reference.shape, topology);
+  normals_ = areas.normals;
+
+  // undulations
+
+  VectorXd kc = Map<const VectorXd>(reference.kc.data(), n), mean(n), floor(n);
+  for (int v = 0; v < n; ++v) {
+    const int c = topology.component(v);
+    const Undulations &law = reference.closed[c] ? CLOSED : CONTINUING;
+    const double a = 4.0 * M_PI / areas.components[c];
+    if (masses[v] == 0.0)
+      kc[v] = 1.0;    // of no rank's part
+    else if (!(kc[v] > 0.0))
+      throw MeshError("mass sampling needs a bending modulus, not 0, in pair_coeff");
+    mean[v] = 0.5 * law.s * a * kc[v];    // of the two ends of an edge
+    floor[v] = law.t * a * a * kc[v] * areas.vertices[v];
+  }
+  std::vector<double> tension(topology.num_faces());
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    const Face &face = topology.face(f);
+    const int c = topology.component(face[0]), open = reference.closed[c] ? 0 : 1;
+    const double unit = 4.0 * M_PI / areas.components[c] * (kc[face[0]] + kc[face[1]] + kc[face[2]]) / 3.0;
+    tension[f] = std::max(reference.tension[f], (LEAST[open] - (open ? CONTINUING : CLOSED).s) * unit);
+  }
+  const SparseMatrix k = cotangent_laplacian(reference.shape, topology,
+                                             std::vector<double>(topology.num_faces(), 1.0));
+  undulation_ = k * diagonal(kc.cwiseQuotient(areas.vertices)) * k;
+  undulation_ += SparseMatrix(k * diagonal(mean)) + SparseMatrix(diagonal(mean) * k);
+  undulation_ += cotangent_laplacian(reference.shape, topology, tension) + diagonal(floor);
+
+  // along the surface
+
+  std::vector<double> shear(topology.num_faces());
+  VectorXd rest = VectorXd::Zero(n);
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    shear[f] = SHEAR_FACTOR * reference.shear[f] / areas.faces[f] + reference.stretch[f];
+    if (masses[topology.face(f)[0]] == 0.0)
+      shear[f] = 1.0;
+    else if (!(shear[f] > 0.0))
+      throw MeshError("mass sampling needs regularize in pair_coeff: half of kc is a good value");
+    const double a = 4.0 * M_PI / areas.components[topology.component(topology.face(f)[0])];
+    for (int v : topology.face(f)) rest[v] += SHEAR_FLOOR * a * shear[f] * areas.faces[f] / 3.0;
+  }
+  sliding_ = cotangent_laplacian(reference.shape, topology, shear) + diagonal(rest);
+
+  const double unit = 1.0 / settings_.unit;
+  undulation_ *= unit;
+  sliding_ *= unit;
+  normal_factor_ = std::make_unique<SparseCholesky>(undulation_);
+  tangent_factor_ = std::make_unique<SparseCholesky>(sliding_);
+  find_turning(topology, areas.components);
+}
+
+// closed components. They translate with the stiffness of a wave as long as they are
+
+void SamplingMass::find_turning(const Topology &topology, const std::vector<double> &areas)
+{
+  const StiffnessReference &reference = *settings_.reference->now;
+  arms_.assign(topology.num_vertices(), Vector3d::Zero());
+  turning_of_.assign(topology.num_vertices(), -1);
+  for (int c = 0; c < topology.num_components(); ++c) {
+    if (!reference.closed[c]) continue;
+    Turning turning;
+    Vector3d middle = Vector3d::Zero();
+    double kc = 0.0;
+    for (int v = 0; v < topology.num_vertices(); ++v) {
+      if (topology.component(v) != c) continue;
+      turning.vertices.push_back(v);
+      middle += reference.shape.points[v];
+      kc += reference.kc[v];
+    }
+    const double n = turning.vertices.size();
+    for (int v : turning.vertices) {
+      arms_[v] = reference.shape.points[v] - middle / n;
+      turning_of_[v] = static_cast<int>(turning_.size());
+    }
+    const double a = 4.0 * M_PI / areas[c];
+    turning.mobility = settings_.unit / (4.0 * M_PI * a * kc / n);
+    turning_.push_back(std::move(turning));
+  }
+}
+
+/* ----------------------------------------------------------------------
+   M^-1 = M0^-1 - Y W Y^T with Y = M0^-1 U and W = (S + k^-1)^-1, S = U^T Y: Woodbury's formula for
+   M0 + U k U^T, where k is infinite for motions that there are not to be. Noise is v - Y C U^T v, with
+   C + C^T - C S C^T = W
+------------------------------------------------------------------------- */
+
+void SamplingMass::build_totals(const Topology &topology)
+{
+  const int n = topology.num_vertices();
+  const auto &totals = settings_.reference->now->totals;
+  const int rank = static_cast<int>(totals.size() + 6 * turning_.size());
+  u_ = MatrixXd::Zero(3 * n, rank);
+  VectorXd softness = VectorXd::Zero(rank);
+  int j = 0;
+  for (const auto &total : totals) {
+    for (int v = 0; v < n; ++v) u_.col(j).segment<3>(3 * v) = total.gradient[v];
+    softness[j++] = settings_.unit / total.stiffness;
+  }
+  for (const Turning &turning : turning_)
+    for (int k = 0; k < 3; ++k, j += 2)
+      for (int v : turning.vertices) {
+        u_.col(j).segment<3>(3 * v) = Vector3d::Unit(k).cross(arms_[v]);
+        u_.col(j + 1).segment<3>(3 * v) = normals_[v][k] * normals_[v];
+      }
+  if (rank == 0) return;
+  u_.colwise().normalize();
+  for (size_t i = 0; i < totals.size(); ++i) {
+    double square = 0.0;
+    for (const Vector3d &g : totals[i].gradient) square += g.squaredNorm();
+    softness[i] /= square;
+  }
+
+  y_.resize(3 * n, rank);
+  for (j = 0; j < rank; ++j) {
+    for (int v = 0; v < n; ++v) {
+      all_[v] = Vector4{};
+      Map<Vector3d>(all_[v].c) = u_.col(j).segment<3>(3 * v);
+    }
+    solve_base(all_);
+    for (int v = 0; v < n; ++v) y_.col(j).segment<3>(3 * v) = Map<Vector3d>(all_[v].c);
+  }
+  const MatrixXd s = u_.transpose() * y_;
+  w_ = (s + MatrixXd(softness.asDiagonal())).inverse();
+  const MatrixXd f = s.llt().matrixL();
+  const MatrixXd hat = f.transpose() * w_ * f, one = MatrixXd::Identity(rank, rank);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(one - 0.5 * (hat + hat.transpose()));
+  const MatrixXd root = eigen.eigenvectors() *
+      eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  const MatrixXd inverse = f.inverse();
+  c_ = inverse.transpose() * (one - root) * inverse;
+}
+
+/* ---------------------------------------------------------------------- */
+
+// x = (N B^-1 N^T + (1 - N N^T) T^-1 (1 - N N^T)) x
+
+void SamplingMass::solve_base(VertexField &x)
+{
+  const int n = static_cast<int>(x.size());
+  for (int v = 0; v < n; ++v) {
+    Map<Vector3d> f(x[v].c);
+    along_[v] = normals_[v].dot(f);
+    f -= along_[v] * normals_[v];
+    x[v].c[3] = 0.0;
+  }
+  normal_factor_->solve(along_);
+  tangent_factor_->solve(x);
+  for (int v = 0; v < n; ++v) {
+    Map<Vector3d> f(x[v].c);
+    f += (along_[v] - normals_[v].dot(f)) * normals_[v];
+  }
+}
+
+static VectorXd products(const MatrixXd &columns, const VertexField &x)
+{
+  VectorXd result(columns.cols());
+  for (int j = 0; j < columns.cols(); ++j) {
+    double sum = 0.0;
+    for (size_t v = 0; v < x.size(); ++v)
+      for (int i = 0; i < 3; ++i) sum += columns(3 * v + i, j) * x[v].c[i];
+    result[j] = sum;
+  }
+  return result;
+}
+
+static void subtract(const MatrixXd &columns, const VectorXd &q, VertexField &x)
+{
+  for (int j = 0; j < columns.cols(); ++j)
+    for (size_t v = 0; v < x.size(); ++v)
+      for (int i = 0; i < 3; ++i) x[v].c[i] -= columns(3 * v + i, j) * q[j];
+}
+
+void SamplingMass::solve_all(VertexField &x)
+{
+  std::vector<Vector3d> total(turning_.size(), Vector3d::Zero());
+  for (size_t t = 0; t < turning_.size(); ++t)
+    for (int v : turning_[t].vertices) total[t] += Map<Vector3d>(x[v].c);
+  VectorXd q;
+  if (w_.size()) q = w_ * products(y_, x);
+  solve_base(x);
+  if (w_.size()) subtract(y_, q, x);
+  for (size_t t = 0; t < turning_.size(); ++t)
+    for (int v : turning_[t].vertices) Map<Vector3d>(x[v].c) += turning_[t].mobility * total[t];
+}
+
+void SamplingMass::scatter(const VertexField &all, VertexField &x) const
+{
+  for (int i = 0; i < part_.owned; ++i) x[i] = all[part_.vertices[i]];
+}
+
+void SamplingMass::solve(const VertexField &p, VertexField &v)
+{
+  part_.gather(p, all_);
+  solve_all(all_);
+  scatter(all_, v);
+  passes_ = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SamplingMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
+{
+  const int n = static_cast<int>(all_.size());
+  const CounterRandom random(seed, step);
+  const double root = std::sqrt(kT);
+  for (int i = 0; i < n; ++i) {
+    const auto normal = random.normals(labels_[i]);
+    for (int k = 0; k < 3; ++k) all_[i].c[k] = root * normal[k];
+    all_[i].c[3] = 0.0;
+    along_[i] = root * normal[3];
+  }
+  normal_factor_->colour(along_);
+  tangent_factor_->colour(all_);
+  for (int i = 0; i < n; ++i) {
+    Map<Vector3d> f(all_[i].c);
+    f += (along_[i] - normals_[i].dot(f)) * normals_[i];
+  }
+  if (c_.size()) subtract(y_, c_ * products(u_, all_), all_);
+  for (const Turning &turning : turning_) {
+    const auto normal = random.normals(labels_[turning.vertices[0]], 1);
+    for (int i : turning.vertices)
+      for (int k = 0; k < 3; ++k) all_[i].c[k] += root * std::sqrt(turning.mobility) * normal[k];
+  }
+  scatter(all_, v);
+}
+
+/* ----------------------------------------------------------------------
+   conjugate gradients for M^-1 p = v, with N B N^T + (1 - N N^T) T (1 - N N^T), which is nearly M, before
+   it. M^-1 has no turning, so p has as much of that as it happens to have: v.p does not see it
+------------------------------------------------------------------------- */
+
+SamplingMass::Vectors SamplingMass::times_base(const Vectors &x) const
+{
+  const Eigen::Index n = x.rows();
+  const Map<const Vectors> normals(normals_[0].data(), n, 3);
+  const VectorXd along = x.cwiseProduct(normals).rowwise().sum();
+  const VectorXd pushed = undulation_ * along;
+  Vectors y = sliding_ * Vectors(x - (normals.array().colwise() * along.array()).matrix());
+  const VectorXd change = pushed - y.cwiseProduct(normals).rowwise().sum();
+  y.array() += normals.array().colwise() * change.array();
+  return y;
+}
+
+void SamplingMass::multiply(const VertexField &v, VertexField &p)
+{
+  part_.gather(v, all_);
+  const auto n = static_cast<Eigen::Index>(all_.size());
+  Vectors r(n, 3), q(n, 3), sum = Vectors::Zero(n, 3);
+  const auto load = [&](Vectors &to) {
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (int k = 0; k < 3; ++k) to(i, k) = all_[i].c[k];
+  };
+  const auto store = [&](const Vectors &from) {
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (int k = 0; k < 3; ++k) all_[i].c[k] = from(i, k);
+  };
+  load(r);
+  Vectors z = times_base(r), d = z;
+  double rz = r.cwiseProduct(z).sum();
+  const double enough = TOLERANCE * TOLERANCE * rz;
+  for (passes_ = 0; passes_ < MOST_PASSES && rz > enough; ++passes_) {
+    store(d);
+    solve_all(all_);
+    load(q);
+    const double dq = d.cwiseProduct(q).sum();
+    if (!(dq > 0.0)) break;    // no more than rounding is left
+    const double alpha = rz / dq;
+    sum += alpha * d;
+    r -= alpha * q;
+    z = times_base(r);
+    const double next = r.cwiseProduct(z).sum();
+    d = z + next / rz * d;
+    rz = next;
+  }
+  store(sum);
+  scatter(all_, p);
+}
+
+/* ----------------------------------------------------------------------
+   the mass does not let a component turn, so it is sampled in one attitude: sum of arms x dq = 0. That
+   all attitudes are equal is a factor det R of the weight, R_jk = sum (e_j x arm).(e_k x x) over the
+   vertices, which is an energy of -kT ln det R
+------------------------------------------------------------------------- */
+
+void SamplingMass::add_gauge_forces(double kT, const VertexField &x, VertexField &f)
+{
+  if (turning_.empty()) return;
+  std::vector<Eigen::Matrix3d> r(turning_.size(), Eigen::Matrix3d::Zero());
+  for (int i = 0; i < part_.owned; ++i) {
+    const int v = part_.vertices[i], t = turning_of_[v];
+    if (t < 0) continue;
+    const Map<const Vector3d> place(x[i].c);
+    r[t] += arms_[v].dot(place) * Eigen::Matrix3d::Identity() - place * arms_[v].transpose();
+  }
+  part_.sum(r[0].data(), static_cast<int>(9 * r.size()));
+  for (auto &matrix : r) {
+    const Eigen::Matrix3d inverse = matrix.inverse();
+    matrix = kT * (inverse.trace() * Eigen::Matrix3d::Identity() - inverse.transpose());
+  }
+  for (int i = 0; i < part_.owned; ++i) {
+    const int v = part_.vertices[i], t = turning_of_[v];
+    if (t >= 0) Map<Vector3d>(f[i].c) += r[t] * arms_[v];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double SamplingMass::memory_usage() const
+{
+  return MassOperator::memory_usage() + normal_factor_->memory_usage() +
+      tangent_factor_->memory_usage() + 12.0 * (undulation_.nonZeros() + sliding_.nonZeros()) +
+      sizeof(double) * (u_.size() + y_.size());
+}
