@@ -35,7 +35,7 @@ using Membrane_NS::Quadrature;
 // of the bending energy and of kc: beyond it a warning at the end of a run
 static constexpr double MOST_QUADRATURE_ERROR = 0.1;
 
-static constexpr int RESTART_VERSION = 2;
+static constexpr int RESTART_VERSION = 3;
 
 /* ----------------------------------------------------------------------
    a new term: one file that defines it, and one line here. In this order they act

@@ -24,6 +24,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -38,17 +39,19 @@ namespace {
 struct Coefficients {
   double modulus = 0.0;
   bool given = false;    // else the default of the fixes holds
+  bool conformal = false;
 
   bool active() const { return modulus != 0.0; }
   void archive(RestartArchive &file)
   {
     file(modulus);
     file(given);
+    file(conformal);
   }
 };
 
-/** KR (D/A - 1) of each face of the control mesh, see regularize_faces(). Fixes that shake control
-    points may ask for a modulus where pair_coeff has none, by Fix::extract("default_regularize"). */
+/** Keeps faces of the control mesh in shape, see regularize_faces() and conformal_faces(). Fixes that shake
+    control points may ask for a modulus where pair_coeff has none, by Fix::extract("default_regularize"). */
 class RegularizeTerm : public TermWith<Coefficients> {
  public:
   explicit RegularizeTerm(LAMMPS *lmp) :
@@ -63,7 +66,8 @@ class RegularizeTerm : public TermWith<Coefficients> {
   void tally(const HelfrichScene &, HelfrichTally &) const override;
   void add_stiffness(const HelfrichScene &, HelfrichStiffness &stiffness) override
   {
-    for (size_t slot = 0; slot < modulus.size(); ++slot) stiffness.shear[slot] += modulus[slot];
+    for (size_t slot = 0; slot < modulus.size(); ++slot)
+      stiffness.shear[slot] += modulus[slot] + conformal[slot];
   }
 
  protected:
@@ -71,17 +75,21 @@ class RegularizeTerm : public TermWith<Coefficients> {
   {
     c.modulus = words.modulus(1);
     c.given = true;
-    return 2;
+    c.conformal = words.is(2, "conformal");
+    return c.conformal ? 3 : 2;
   }
 
  private:
   double unless_given = 0.0;
-  std::vector<double> modulus, energy;    // by slot; energies only if the scene has any
+  bool any_conformal = false, across_known = false;
+  std::vector<double> modulus, conformal, energy;    // by slot; energies only if anyone wants them
+  std::vector<int> across;                           // by slot and edge, see conformal_faces()
 
   double modulus_of(int type) const
   {
     return by_type[type].given ? by_type[type].modulus : unless_given;
   }
+  void find_across(const HelfrichScene &, const double (*)[3]);
 };
 
 /* ---------------------------------------------------------------------- */
@@ -99,7 +107,45 @@ void RegularizeTerm::choose(const HelfrichScene &)
 void RegularizeTerm::localize(const std::vector<FaceGroup> &groups, FaceModel &)
 {
   modulus.assign(count_slots(groups), 0.0);
-  add_corner_means(groups, atom->type, modulus, [this](int type) { return modulus_of(type); });
+  conformal.assign(modulus.size(), 0.0);
+  const auto of_kind = [this](bool kind) {
+    return [this, kind](int type) { return by_type[type].conformal == kind ? modulus_of(type) : 0.0; };
+  };
+  add_corner_means(groups, atom->type, modulus, of_kind(false));
+  add_corner_means(groups, atom->type, conformal, of_kind(true));
+  any_conformal = std::any_of(conformal.begin(), conformal.end(), [](double k) { return k != 0.0; });
+  across_known = false;
+}
+
+/* ----------------------------------------------------------------------
+   among the points that shape a face; in a small box these may have several images of a vertex
+------------------------------------------------------------------------- */
+
+void RegularizeTerm::find_across(const HelfrichScene &scene, const double (*x)[3])
+{
+  across_known = true;
+  const auto &topology = scene.mesh->topology();
+  across.assign(3 * conformal.size(), 0);
+  for (const FaceGroup &group : scene.groups)
+    for (int s = 0; s < group.nfaces; ++s) {
+      const int f = group.face[s];
+      const Membrane_NS::Face &face = topology.face(f);
+      for (int k = 0; k < 3; ++k) {
+        const int here = group.point(s, k), v = scene.mesh->vertex(atom->tag[here]);
+        const int corner = static_cast<int>(std::find(face.begin(), face.end(), v) - face.begin());
+        const tagint wanted = scene.mesh->tag(topology.opposite(f, corner));
+        double nearest = INFINITY;
+        for (int i = 0; i < group.rule->size; ++i) {
+          const int j = group.point(s, i);
+          if (atom->tag[j] != wanted) continue;
+          double square = 0.0;
+          for (int m = 0; m < 3; ++m) square += (x[j][m] - x[here][m]) * (x[j][m] - x[here][m]);
+          if (!(square < nearest)) continue;
+          nearest = square;
+          across[3 * static_cast<size_t>(group.first_slot + s) + k] = j;
+        }
+      }
+    }
 }
 
 /* ----------------------------------------------------------------------
@@ -108,10 +154,13 @@ void RegularizeTerm::localize(const std::vector<FaceGroup> &groups, FaceModel &)
 
 void RegularizeTerm::add_forces(HelfrichScene &scene, const double (*x)[3], double (*f)[3])
 {
+  if (any_conformal && !across_known) find_across(scene, x);
   energy.assign(scene.energies.area.size(), 0.0);
+  auto &virial = scene.energies.virial;
   for (const FaceGroup &group : scene.groups) {
-    const double worst = Membrane_NS::regularize_faces(group, x, modulus, f, energy,
-                                                       scene.energies.virial);
+    double worst = Membrane_NS::regularize_faces(group, x, modulus, f, energy, virial);
+    if (any_conformal)
+      worst = MAX(worst, Membrane_NS::conformal_faces(group, x, conformal, across, f, energy, virial));
     if (worst < WORST_FACE || (update->whichflag == 2 && std::isfinite(worst))) continue;
     for (int s = 0; s < group.nfaces; ++s)
       if (!(Membrane_NS::face_distortion(x[group.point(s, 0)], x[group.point(s, 1)],

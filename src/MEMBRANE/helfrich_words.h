@@ -28,6 +28,8 @@ class HelfrichWords : protected Pointers {
   std::string keyword() const { return arg[0]; }
   /// The i-th word after the keyword, from 1.
   std::string word(int i) const;
+  /// Whether there is an i-th word and it is this one.
+  bool is(int i, const std::string &word) const { return i < narg && word == arg[i]; }
   double number(int i) const;
   /// A number that is not negative.
   double modulus(int i) const;

@@ -43,7 +43,7 @@ static constexpr double LEAST[] = {-2.2, -0.8};    // > -2 sqrt(t)
 
 // T = FACTOR sum over faces of shear (K_f/A_f + FLOOR a D_f/A_f): see the derivation
 
-static constexpr double SHEAR_FACTOR = 2.0, SHEAR_FLOOR = 4.0;
+static constexpr double SHEAR_FACTOR = 2.0, SHEAR_FLOOR = 1.0;
 
 // of conjugate gradients with M^-1, and when they have got nowhere
 

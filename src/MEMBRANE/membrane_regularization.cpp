@@ -50,6 +50,32 @@ double Membrane_NS::face_uprightness(const double *const (&p)[3], const double *
   return normal.dot(around) < 0.0 ? -upright : upright;
 }
 
+// D/A of a face, and its gradient by the first two corners
+
+static double distortion(const FaceCorners &corners, Vector3d (&gradient)[2])
+{
+  const Vector3d *p = corners.place;
+  const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  const double area = 0.5 * normal.norm();
+  const double edges = (p[1] - p[0]).squaredNorm() + (p[2] - p[1]).squaredNorm() +
+      (p[0] - p[2]).squaredNorm();
+  const double ratio = INVERSE_4_SQRT_3 * edges / area;
+
+  // (d dirichlet - ratio d area)/area
+
+  const double stretch = 2.0 * INVERSE_4_SQRT_3 / area, spread = 0.25 * ratio / (area * area);
+  for (int k = 0; k < 2; ++k) {
+    const Vector3d &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
+    gradient[k] = stretch * (2.0 * a - b - c) - spread * normal.cross(c - b);
+  }
+  return ratio;
+}
+
+static double *of_slot(std::vector<double> &virial, int slot)
+{
+  return virial.empty() ? nullptr : &virial[6 * static_cast<size_t>(slot)];
+}
+
 double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3],
                                      const std::vector<double> &modulus, double (*f)[3],
                                      std::vector<double> &energy, std::vector<double> &virial)
@@ -59,26 +85,76 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
     const int slot = group.first_slot + s;
     if (modulus[slot] == 0.0) continue;
     const FaceCorners corners(group, s, x);
-    const Vector3d *p = corners.place;
-    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    const double twice_area = normal.norm(), area = 0.5 * twice_area;
-    const double edges = (p[1] - p[0]).squaredNorm() + (p[2] - p[1]).squaredNorm() +
-        (p[0] - p[2]).squaredNorm();
-    const double dirichlet = INVERSE_4_SQRT_3 * edges;
-    const double ratio = dirichlet / area;
+    Vector3d gradient[2];
+    const double ratio = distortion(corners, gradient);
     worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
     if (!energy.empty()) energy[slot] += modulus[slot] * (ratio - 1.0);
+    corners.add({-modulus[slot] * gradient[0], -modulus[slot] * gradient[1]}, f,
+                of_slot(virial, slot));
+  }
+  return worst;
+}
 
-    // -modulus/area (d dirichlet - ratio d area); what the three corners feel sums to zero
+/* ---------------------------------------------------------------------- */
 
-    const double stretch = 2.0 * INVERSE_4_SQRT_3 * modulus[slot] / area,
-                 spread = 0.25 * modulus[slot] * ratio / (area * area);
-    Vector3d force[2];
-    for (int k = 0; k < 2; ++k) {
-      const Vector3d &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-      force[k] = spread * normal.cross(c - b) - stretch * (2.0 * a - b - c);
+// of regularize_faces(), so that sizes of faces do not drift apart, which costs nothing conformally; and a
+// face with more D/A than this is kept from collapse
+static constexpr double PLAIN = 0.1, BARRIER = 1.3;
+
+double Membrane_NS::conformal_faces(const FaceGroup &group, const double (*x)[3],
+                                    const std::vector<double> &modulus,
+                                    const std::vector<int> &across, double (*f)[3],
+                                    std::vector<double> &energy, std::vector<double> &virial)
+{
+  double worst = 1.0;
+  for (int s = 0; s < group.nfaces; ++s) {
+    const int slot = group.first_slot + s;
+    if (modulus[slot] == 0.0) continue;
+    const FaceCorners corners(group, s, x);
+    Vector3d gradient[2];
+    const double ratio = distortion(corners, gradient);
+    worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
+    double *v = of_slot(virial, slot);
+    double law = PLAIN * (ratio - 1.0), slope = PLAIN;
+    if (ratio > BARRIER) {
+      law += (ratio - BARRIER) * (ratio - BARRIER) / ratio;
+      slope += 1.0 - BARRIER * BARRIER / (ratio * ratio);
     }
-    corners.add(force, f, virial.empty() ? nullptr : &virial[6 * static_cast<size_t>(slot)]);
+    slope *= -modulus[slot];
+    if (!energy.empty()) energy[slot] += modulus[slot] * law;
+    corners.add({slope * gradient[0], slope * gradient[1]}, f, v);
+
+    const double weight = modulus[slot] / 9.0;
+    for (int k = 0; k < 3; ++k) {
+      const int d = across[3 * static_cast<size_t>(slot) + k];
+      const Vector3d &p0 = corners.place[k], &p1 = corners.place[(k + 1) % 3],
+                     &p2 = corners.place[(k + 2) % 3], across_edge(x[d]);
+      const Vector3d side[4] = {p1 - p2, p0 - across_edge, p2 - p0, across_edge - p1};
+      double square[4];
+      for (int i = 0; i < 4; ++i) square[i] = side[i].squaredNorm();
+      const double cross = 0.5 * std::log(square[0] * square[1] / (square[2] * square[3]));
+      if (!energy.empty()) energy[slot] += weight * cross * cross;
+
+      // each side pulls its two ends together, or pushes them apart
+
+      const double pull = 2.0 * weight * cross;
+      const Vector3d one = -pull / square[0] * side[0], two = -pull / square[1] * side[1],
+                     three = pull / square[2] * side[2], four = pull / square[3] * side[3];
+      const Vector3d on[4] = {two - three, one - four, three - one, four - two};
+      const int at[4] = {corners.point[k], corners.point[(k + 1) % 3], corners.point[(k + 2) % 3], d};
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 3; ++j) f[at[i]][j] += on[i][j];
+      if (!v) continue;
+      const Vector3d arm[4] = {one, two, three, four};
+      for (int i = 0; i < 4; ++i) {
+        v[0] += side[i][0] * arm[i][0];
+        v[1] += side[i][1] * arm[i][1];
+        v[2] += side[i][2] * arm[i][2];
+        v[3] += side[i][0] * arm[i][1];
+        v[4] += side[i][0] * arm[i][2];
+        v[5] += side[i][1] * arm[i][2];
+      }
+    }
   }
   return worst;
 }

@@ -32,6 +32,22 @@ double regularize_faces(const FaceGroup &group, const double (*x)[3],
                         const std::vector<double> &modulus, double (*f)[3],
                         std::vector<double> &energy, std::vector<double> &virial);
 
+/** Keeps the control mesh of a fluid membrane well shaped without a tension on curved surfaces: each face
+    has a half of K/9 times
+
+      2 (ln c)^2,   c = |p1 p2| |p0 d|/(|p2 p0| |d p1|)
+
+    for each edge p0 p1 with the corners p2 and d of the faces on both sides: the length cross ratio
+    [B. Springborn, P. Schroeder and U. Pinkall, Conformal equivalence of triangle meshes, ACM Trans. Graph.
+    27, 77 (2008)]. It does not change when the mesh is deformed conformally, that is with another scale in
+    every place, and resists shear as much as regularize_faces() of the same K. Besides,
+    K (r - 2)^2/r of r = D/A > 2 keeps faces from collapse.
+
+    across: [slots][3], the point d of the edge from corner k to k+1. The rest is as of regularize_faces(). */
+double conformal_faces(const FaceGroup &group, const double (*x)[3],
+                       const std::vector<double> &modulus, const std::vector<int> &across,
+                       double (*f)[3], std::vector<double> &energy, std::vector<double> &virial);
+
 /// D/A of a triangle: 1 if equilateral, infinite if it has no area.
 double face_distortion(const double *a, const double *b, const double *c);
 
