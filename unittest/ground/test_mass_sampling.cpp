@@ -1,0 +1,224 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+// Mass sampling: an inverse that is explicit, noise that has it as covariance, and what it leaves out.
+
+#include "membrane_mass_kinds.h"
+#include "membrane_mass_reference.h"
+#include "one_rank.h"
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+using namespace Membrane_NS;
+using namespace Membrane_TEST;
+
+namespace {
+
+struct Sampled {
+  TriangleMesh mesh;
+  Topology topology;
+  OneRank part;
+  std::vector<double> masses;
+  std::vector<uint64_t> labels;
+  std::shared_ptr<SharedReference> reference = std::make_shared<SharedReference>();
+  std::unique_ptr<MassOperator> matrix;
+
+  explicit Sampled(TriangleMesh m, bool volume = true) :
+      mesh(std::move(m)), topology(topology_of(mesh)), part(topology), masses(mesh.points.size(), 1.0)
+  {
+    for (size_t v = 0; v < masses.size(); ++v) labels.push_back(v + 1);
+    StiffnessReference stiffness;
+    stiffness.shape = mesh;
+    stiffness.kc.assign(masses.size(), 1.0);
+    stiffness.tension.assign(mesh.faces.size(), 0.3);
+    stiffness.shear.assign(mesh.faces.size(), 0.5);
+    stiffness.stretch.assign(mesh.faces.size(), 0.0);
+    stiffness.closed.assign(topology.num_components(), !mesh.is_periodic());
+    if (volume) {
+      StiffnessReference::Total total = {100.0, std::vector<Vector3d>(masses.size(), Vector3d::Zero())};
+      for (const Face &face : mesh.faces)
+        for (int v : face)
+          total.gradient[v] += mesh.edge(face[0], face[1]).cross(mesh.edge(face[0], face[2])) / 6.0;
+      stiffness.totals.push_back(total);
+    }
+    reference->now = std::make_shared<const StiffnessReference>(stiffness);
+    MassOperator::Settings settings;
+    settings.kind = MassKind::SAMPLING;
+    settings.reference = reference;
+    settings.unit = 0.7;
+    matrix = make_mass({topology, part, masses, labels}, settings);
+  }
+  int size() const { return part.owned; }
+
+  // M^-1, column by column
+
+  Eigen::MatrixXd inverse()
+  {
+    Eigen::MatrixXd result(3 * size(), 3 * size());
+    for (int j = 0; j < 3 * size(); ++j) {
+      VertexField p(size(), Vector4{}), v(size());
+      p[j / 3].c[j % 3] = 1.0;
+      matrix->solve(p, v);
+      for (int i = 0; i < 3 * size(); ++i) result(i, j) = v[i / 3].c[i % 3];
+    }
+    return result;
+  }
+};
+
+TriangleMesh small_sheet()
+{
+  Eigen::Matrix3d lattice = Eigen::Matrix3d::Identity();
+  lattice.diagonal() << 5.0, 3.0 * std::sqrt(3.0), 10.0;
+  return sheet(5, 6, lattice, 0.0);
+}
+
+std::vector<TriangleMesh> some_meshes()
+{
+  return {icosphere(1, 2.0), perturbed(bipyramid(7), 0.1, 3), small_sheet(),
+          together(icosphere(1, 1.0), icosphere(1, 1.5), Vector3d(9, 0, 0))};
+}
+
+}    // namespace
+
+TEST(SamplingMass, TheInverseIsSymmetricAndHasOneZeroForEachRotation)
+{
+  for (const TriangleMesh &mesh : some_meshes()) {
+    Sampled body(mesh, !mesh.is_periodic());
+    const Eigen::MatrixXd inverse = body.inverse();
+    const double scale = inverse.norm();
+    EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-10 * scale);
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inverse).eigenvalues();
+    const int lost = body.matrix->lost_freedoms();
+    EXPECT_EQ(lost, mesh.is_periodic() ? 0 : 3 * body.topology.num_components());
+    EXPECT_GT(values.minCoeff(), -1e-12 * scale);
+    for (int i = 0; i < values.size(); ++i) EXPECT_EQ(values[i] < 1e-9 * scale, i < lost) << values[i];
+  }
+}
+
+TEST(SamplingMass, NoiseHasTheInverseAsCovariance)
+{
+  Sampled body(icosphere(0, 1.0));
+  const int n = 3 * body.size(), samples = how_many(60000, 600000L);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  const double kT = 0.4;
+  for (int s = 0; s < samples; ++s) {
+    VertexField v(body.size());
+    body.matrix->sample(kT, 11, s, v);
+    Eigen::VectorXd x(n);
+    for (int i = 0; i < n; ++i) x[i] = v[i / 3].c[i % 3];
+    sum += x * x.transpose() / samples;
+  }
+  const Eigen::MatrixXd expected = kT * body.inverse();
+  // each entry has the error sqrt((ii jj + ij^2)/samples)
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const double error = std::sqrt((expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j)) / samples);
+      EXPECT_NEAR(sum(i, j), expected(i, j), 5.0 * error) << i << " " << j;
+    }
+}
+
+TEST(SamplingMass, MultiplyUndoesSolve)
+{
+  for (const TriangleMesh &mesh : some_meshes()) {
+    Sampled body(mesh, !mesh.is_periodic());
+    const VertexField p = rough(body.size());
+    VertexField v(body.size()), q(body.size()), w(body.size());
+    body.matrix->solve(p, v);
+    body.matrix->multiply(v, q);
+    body.matrix->solve(q, w);
+    double off = 0.0, size = 0.0, energy = 0.0, other = 0.0;
+    for (int i = 0; i < body.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        off += std::pow(w[i].c[k] - v[i].c[k], 2);
+        size += std::pow(v[i].c[k], 2);
+        energy += v[i].c[k] * p[i].c[k];
+        other += v[i].c[k] * q[i].c[k];
+      }
+    EXPECT_LT(off, 1e-14 * size);
+    EXPECT_NEAR(other, energy, 1e-8 * energy);
+  }
+}
+
+TEST(SamplingMass, GaugeForcesAreThoseOfMinusKTLnDetR)
+{
+  Sampled body(perturbed(icosphere(1, 1.0), 0.1, 4));
+  const int n = body.size();
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d &p : body.mesh.points) middle += p / n;
+  const auto energy = [&](const Points &x) {
+    Matrix3d r = Matrix3d::Zero();
+    for (int v = 0; v < n; ++v)
+      for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 3; ++k)
+          r(j, k) += Vector3d::Unit(j).cross(body.mesh.points[v] - middle).dot(Vector3d::Unit(k).cross(x[v]));
+    return -0.3 * std::log(r.determinant());
+  };
+  const Points at = perturbed(body.mesh, 0.1, 5).points;
+  VertexField x(n), f(n, Vector4{});
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) x[i].c[k] = at[body.part.vertices[i]][k];
+  body.matrix->add_gauge_forces(0.3, x, f);
+  Vector3d total = Vector3d::Zero();
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      Points ahead = at, back = at;
+      ahead[body.part.vertices[i]][k] += 1e-5;
+      back[body.part.vertices[i]][k] -= 1e-5;
+      EXPECT_NEAR(f[i].c[k], -(energy(ahead) - energy(back)) / 2e-5, 1e-8);
+    }
+    total += Vector3d(f[i].c);
+  }
+  EXPECT_LT(total.norm(), 1e-12);
+}
+
+TEST(SamplingMass, SaysWhatPairCoeffLacks)
+{
+  Sampled body(icosphere(1, 1.0));
+  const auto message = [&](auto change) {
+    StiffnessReference stiffness = *body.reference->now;
+    change(stiffness);
+    MassOperator::Settings settings;
+    settings.kind = MassKind::SAMPLING;
+    settings.reference = std::make_shared<SharedReference>();
+    settings.reference->now = std::make_shared<const StiffnessReference>(stiffness);
+    try {
+      make_mass({body.topology, body.part, body.masses, body.labels}, settings);
+    } catch (const MeshError &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message([](auto &s) { s.shear.assign(s.shear.size(), 0.0); }).find("regularize"), std::string::npos);
+  EXPECT_NE(message([](auto &s) { s.kc.assign(s.kc.size(), 0.0); }).find("bending modulus"), std::string::npos);
+  EXPECT_EQ(message([](auto &s) { s.tension.assign(s.tension.size(), -1e6); }), "");
+}
+
+TEST(SamplingMass, DistanceFromTheReferenceIsThatOfNormals)
+{
+  const Sampled body(icosphere(2, 1.0));
+  const StiffnessReference &reference = *body.reference->now;
+  EXPECT_NEAR(reference.distance(body.mesh, body.topology), 0.0, 1e-14);
+  TriangleMesh turned = body.mesh, mirrored = body.mesh;
+  const Matrix3d turn = Eigen::AngleAxisd(0.3, Vector3d::UnitZ()).toRotationMatrix();
+  for (Vector3d &p : turned.points) p = 2.0 * (turn * p);
+  for (Vector3d &p : mirrored.points) p.z() = -p.z();
+  // mean of sin^2 over a sphere is 2/3
+  EXPECT_NEAR(reference.distance(turned, body.topology), (1.0 - std::cos(0.3)) * 2.0 / 3.0, 2e-3);
+  // normals (-x, -y, z) of places (x, y, z)
+  EXPECT_NEAR(reference.distance(mirrored, body.topology), 4.0 / 3.0, 2e-3);
+}
