@@ -1,0 +1,100 @@
+"""mass sampling of fix hd/langevin and hd/brownian: ranks, restarts, the reference that it renews, several membranes; the
+measure among fixes, along a ramp and in what is conserved; wrong input."""
+# processors: 2
+
+from lammps_claims import claim, error_of, finish, run, thermo
+
+SCENE = """
+units           lj
+atom_style      membrane_cp
+region          box block -3 3 -3 3 -3 3
+create_box      1 box angle/types 1
+create_membrane 1 sphere 2 1.0 mass 0.1
+special_bonds   lj/coul 1 1 1
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0 volume 1000.0 init regularize 0.5 conformal
+compute         e all pair helfrich
+compute         T all hd/temp
+compute_modify  T extra/dof 0
+thermo_style    custom step pe ke etotal econserve c_e[1] c_e[7] c_e[10] c_T
+thermo_modify   norm no format float %.15g
+timestep        0.4
+thermo          10
+"""
+LANGEVIN = "fix 1 all hd/langevin 0.05 0.05 1.5 4711 mass sampling\n"
+BROWNIAN = "fix 1 all hd/brownian 0.05 4711 mass sampling\n"
+TWO = SCENE.replace("create_membrane 1 sphere 2 1.0 mass 0.1\n", """
+create_membrane 1 sphere 1 1.0 mass 0.1 center -1.5 0 0
+create_membrane 1 sphere 1 1.2 mass 0.1 center 1.5 0 0
+""")
+DUMP = """
+dump            1 all custom 20 {path} id x y z vx vy vz
+dump_modify     1 format float %.17g sort id
+"""
+
+
+def numbers(path):
+    lines = open(path).read().split("ITEM: ATOMS")[-1].split("\n")[1:-1]
+    return [float(word) for line in lines for word in line.split()[1:]]
+
+
+for name, fix in (("hd/langevin", LANGEVIN), ("hd/brownian", BROWNIAN.replace("sampling", "sampling gamma_t 1.5"))):
+    for scene, text in ((SCENE, "one membrane"), (TWO, "two membranes")):
+        run(scene + fix + "run 20\nwrite_restart half.restart\n" + DUMP.format(path="straight.dump") + "run 20\n")
+        run("read_restart half.restart\n" + fix + "timestep 0.4\n" + DUMP.format(path="again.dump") + "run 20\n")
+        claim(f"{name}, {text}: a run continued from a restart file is bitwise the same",
+              open("straight.dump").read() == open("again.dump").read())
+        run(scene + fix + "run 20\n" + DUMP.format(path="two.dump") + "run 20\n", ranks=2)
+        apart = max(abs(a - b) for a, b in zip(numbers("straight.dump"), numbers("two.dump")))
+        claim(f"{name}, {text}: two ranks follow one", apart < 1e-8, f"{apart:.1e}")
+
+rows = thermo(run(SCENE + LANGEVIN + "run 400\nrun 4000\n"))[42:]
+mean = sum(row["c_T"] for row in rows) / len(rows)
+claim("compute hd/temp reads the temperature of what moves, without rotations", abs(mean / 0.05 - 1) < 0.01,
+      f"{mean:.5f} of 0.05")
+output = run(SCENE + LANGEVIN + "hd_timestep all\nrun 300\nhd_timestep all\n")
+found = [float(line.split()[-1]) for line in output.split("\n") if "recommended timestep" in line]
+claim("hd_timestep finds steps for it at rest and in thermal motion", 0.3 < found[1] <= found[0] < 1.0, found)
+
+# === The reference
+
+output = run(SCENE.replace("volume 1000.0 init", "volume 1000.0 2.7 area 1000.0 12.5") + LANGEVIN + "run 1000\n")
+claim("a shape that leaves the reference gets a new one, with a message", "taken anew" in output)
+claim("a vesicle in equilibrium keeps it", "taken anew" not in run(SCENE + LANGEVIN + "run 1000\n"))
+
+# === The measure
+
+rows = thermo(run(SCENE + LANGEVIN + "run 0\nunfix 1\nfix 1 all hd/nve\nrun 0\nfix 1 all hd/nve measure 0.05\nrun 0\n"
+                  "unfix 1\nmin_style membrane\nminimize 0 1e-6 0 10\n"))
+at = [row["c_e[10]"] for row in rows]
+claim("the measure is an entry of compute pair, with hd/langevin by itself, with hd/nve if told, never in a minimization",
+      at[0] < -100 and at[1] == 0 and abs(at[2] / at[0] - 1) < 1e-12 and at[3] == 0, at)
+claim("and part of the potential energy", abs(rows[0]["PotEng"] - rows[1]["PotEng"] - at[0]) < 1e-9)
+rows = thermo(run(SCENE + "fix 1 all hd/langevin 0.05 0.1 1.0 4711 measure yes tally yes\ntimestep 1e-3\nrun 2000\n"))
+drift = max(abs(row["Econserve"] - rows[0]["Econserve"]) for row in rows)
+claim("along a ramp the energy with that of the bath is conserved, the measure's share included",
+      drift < 0.02 * abs(rows[-1]["c_e[10]"] - rows[0]["c_e[10]"]),
+      f"{drift:.3f} while the measure changes by {rows[-1]['c_e[10]'] - rows[0]['c_e[10]']:.1f}")
+rows = thermo(run(SCENE + "velocity all create 0.05 7\nfix 1 all hd/nve measure 0.05\ntimestep 5e-4\nrun 2000\n"))
+drift = max(abs(row["TotEng"] - rows[0]["TotEng"]) for row in rows)
+claim("hd/nve with the measure conserves energy", drift < 2e-3 * max(row["KinEng"] for row in rows), f"{drift:.1e}")
+
+# === Wrong input
+
+NO_MESH = SCENE.replace(" regularize 0.5 conformal", "")
+for scene, fix, said in (
+        (SCENE, "fix 1 all hd/langevin 0 0 1 4711 measure yes", "measure yes needs a temperature"),
+        (SCENE, "fix 1 all hd/brownian 0 4711 gamma_t 1 measure yes", "measure yes needs a temperature"),
+        (SCENE, "fix 1 all hd/nve measure 0", "must be a positive temperature"),
+        (SCENE, "fix 1 all hd/nve mass sampling", "means nothing without a thermostat"),
+        (SCENE, "fix 1 all hd/langevin 1 1 1 4711 mass sampling solver direct", "needs no solver"),
+        (SCENE, "fix 1 all hd/langevin 1 1 1 4711 mass sampling scale 1 2", "scale needs mass vertex or lumped"),
+        (NO_MESH, LANGEVIN, "add regularize to pair_coeff 1 1"),
+        (NO_MESH, LANGEVIN + "fix_modify 1 check no\n", "add regularize to pair_coeff 1 1"),
+        (NO_MESH, LANGEVIN.strip() + " measure no\n", "mass sampling needs regularize"),
+        (SCENE.replace("pair_coeff      1 1 1.0", "pair_coeff      1 1 0.0"), LANGEVIN, "needs a bending modulus"),
+        (SCENE.replace("conformal", "conformal conformal"), LANGEVIN, "Unknown pair_coeff helfrich keyword conformal")):
+    message = error_of(scene + fix + "\nrun 10\n")
+    claim(f"error: {said}", said in message and message.count("\n") <= 1, message[:160])
+
+finish()

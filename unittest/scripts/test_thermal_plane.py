@@ -1,0 +1,91 @@
+"""A sheet without tension at the temperature of a bilayer, kc = 20 kT, where without the measure of the mesh it crumples.
+
+    MEMBRANE_LONG=1    many more steps, three sizes, three temperatures, with and without tension
+"""
+# cost: 30
+# timeout: 14400
+
+import math
+
+from lammps_claims import LONG, claim, finish, run, thermo
+from mode_statistics import averages, mean_and_error
+
+BLOCKS, NMAX = 20, 4
+FIX = "hd/langevin {kT} {kT} 1.5 4711 mass sampling"
+
+
+def sheet(size, steps, kT=0.05, dt=0.5, tension=0.0, fix=FIX):
+    """{|q h|: blocks of the power over theory, kT/[A (kc q^4 + tension q^2)]} of waves up to qh = 1, rows of thermo"""
+    lx, ly = 12.0 * size, 7.0 * size * math.sqrt(3)
+    per = steps // BLOCKS // 2 * 2
+    output = run(f"""
+units           lj
+atom_style      membrane_cp
+region          box block 0 {lx} 0 {ly!r} {-10 * size} {10 * size}
+create_box      1 box angle/types 1
+create_membrane 1 plane {12 * size} {14 * size} mass {math.sqrt(0.75)!r}
+special_bonds   lj/coul 1 1 1
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0 regularize 0.5 conformal tension {tension}
+compute         m all hd/modes plane {NMAX}
+compute         s all membrane/shape
+fix             1 all {fix.format(kT=kT)}
+timestep        {dt}
+thermo_style    custom step pe c_s[1] c_s[9] pxx pyy lx ly lz
+thermo          {per}
+run             300
+reset_timestep  0
+fix             a all ave/time 2 {per // 2} {per} c_m[6] mode vector file power.txt
+run             {BLOCKS * per}
+""", timeout=14400)
+    members = {}
+    waves = [(0, ny) for ny in range(1, NMAX + 1)] + \
+        [(nx, ny) for nx in range(1, NMAX + 1) for ny in range(-NMAX, NMAX + 1)]
+    for i, (nx, ny) in enumerate(waves):
+        q = math.hypot(2 * math.pi * nx / lx, 2 * math.pi * ny / ly)
+        if q <= 1.0:
+            members.setdefault(round(q, 3), []).append((i, kT / (lx * ly) / (q ** 4 + tension * q ** 2)))
+    blocks = averages("power.txt")
+    return {q: [sum(block[i] / power for i, power in rows) / len(rows) for block in blocks]
+            for q, rows in sorted(members.items())}, thermo(output)[-BLOCKS:]
+
+
+def claims(text, ratios, precision):
+    spectrum = {q: mean_and_error(blocks) for q, blocks in ratios.items()}
+    words = "  ".join(f"{q}: {mean:.3f}({1000 * error:.0f})" for q, (mean, error) in spectrum.items())
+    claim(f"{text}: powers up to qh = 1 are those of theory to 2 % and three standard errors",
+          all(abs(mean - 1) < 0.02 + 3 * error for mean, error in spectrum.values()), words)
+    weight = sum(error ** -2 for _, error in spectrum.values())
+    mean = sum(mean / error ** 2 for mean, error in spectrum.values()) / weight
+    claim(f"{text}: and all together to 2 %", abs(mean - 1) < 0.02 + 2 * weight ** -0.5 < 0.02 + 2 * precision,
+          f"{mean:.4f} +- {weight ** -0.5:.4f}")
+
+
+ratios, rows = sheet(2, 40000 if LONG else 6000)
+claims("672 points", ratios, 0.01)
+
+# what holds the frame: (pxx + pyy)/2 is minus the tension over the height of the box. The tension of the energy is
+# zero, and that of the measure would be 3/2 kT N/A
+
+tensions = [-0.5 * (row["Pxx"] + row["Pyy"]) * row["Lz"] for row in rows]
+mean, error = mean_and_error(tensions)
+gas = 1.5 * 0.05 * 2 / math.sqrt(3)
+claim("the frame feels a small part of the tension that the measure takes out", abs(mean) < 0.1 * gas + 3 * error,
+      f"{mean:.4f}({error:.4f}) of {gas:.4f}")
+claim("faces stay in shape", min(row["c_s[9]"] for row in rows) > 15, min(row["c_s[9]"] for row in rows))
+
+ratios, _ = sheet(1, 20000 if LONG else 6000, tension=0.5)
+claims("168 points with tension 0.5", ratios, 0.012)
+
+ratios, rows = sheet(2, 1500, fix=FIX + " measure no")
+longest = mean_and_error(next(iter(ratios.values())))[0]
+claim("without the measure the longest waves grow without bound", longest > 10, f"{longest:.1f} times theory")
+
+if LONG:
+    for size, steps in ((1, 40000), (2, 40000), (4, 20000)):
+        for inverse in (10, 20, 50):
+            for tension in (0.0, 0.5):
+                ratios, _ = sheet(size, steps, kT=1 / inverse, dt=0.4, tension=tension)
+                claims(f"{168 * size ** 2} points, kc = {inverse} kT, tension {tension}", ratios, 0.01)
+
+finish()
