@@ -97,12 +97,14 @@ class SurfaceObstacle : protected Pointers {
 
  private:
   Settings settings;
+  Membrane_NS::CollisionEvents::Settings rule;
   Membrane_NS::CollisionEvents events;
   std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
   ImpulseExchange impulses;
   SurfaceInCells in_cells;
   SurfaceRescue rescue;
 
+  void build_grid(const SRDFlight &);
   void run(const SRDFlight &);
   void finish(const SRDFlight &);
   double contact() const;

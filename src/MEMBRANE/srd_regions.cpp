@@ -61,7 +61,7 @@ void SurfaceRegions::grow(int nmax)
 
 void SurfaceRegions::locate()
 {
-  const auto &vertices = motion.places();
+  vertices = motion.places();
   const Eigen::Matrix3d to_fraction = motion.lattice().inverse();
   std::vector<Vector3d> points;
   points.reserve(vertices.size());
@@ -222,5 +222,6 @@ std::array<double, 2> SurfaceRegions::volumes() const
 
 double SurfaceRegions::memory_usage() const
 {
-  return sizeof(int) * (double) atom->nmax;
+  return sizeof(int) * (double) atom->nmax +
+      sizeof(Membrane_NS::SurfaceVertex) * vertices.capacity();
 }

@@ -71,6 +71,8 @@ class SurfaceRegions : protected Pointers {
   };
   /// Collective: atoms of this rank whose positions contradict their regions.
   std::vector<Crossing> find_crossings(const class SRDSolvent &);
+  /// After that: the vertices of the surface.
+  const std::vector<Membrane_NS::SurfaceVertex> &places() const { return vertices; }
   /// After find_crossings(): whether a position is in a region.
   bool belongs(const double *x, imageint image, int region) const;
 
@@ -79,6 +81,7 @@ class SurfaceRegions : protected Pointers {
  private:
   SurfaceMotion &motion;
   std::string user;
+  std::vector<Membrane_NS::SurfaceVertex> vertices;
   int num_surfaces;
   std::vector<int> surface_of;    // of a component: its place among those of the group
   std::vector<Membrane_NS::SurfaceSide> sides;    // by component
