@@ -181,6 +181,12 @@ std::vector<SurfaceRegions::Crossing> SurfaceRegions::find_crossings(const SRDSo
   return crossings;
 }
 
+void SurfaceRegions::forget_places()
+{
+  std::vector<Membrane_NS::SurfaceVertex>().swap(vertices);
+  for (SurfaceSide &side : sides) side.forget_triangles();
+}
+
 /* ---------------------------------------------------------------------- */
 
 void SurfaceRegions::find_parities(const SRDSolvent &solvent, int *parity) const

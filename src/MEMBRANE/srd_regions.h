@@ -63,7 +63,7 @@ class SurfaceRegions : protected Pointers {
   int *region;
   void grow(int nmax);
 
-  // === Check
+  // === Check. Both need the whole surface, for which all ranks send all of it to all.
 
   /// An atom that is not where it belongs.
   struct Crossing {
@@ -75,6 +75,9 @@ class SurfaceRegions : protected Pointers {
   const std::vector<Membrane_NS::SurfaceVertex> &places() const { return vertices; }
   /// After find_crossings(): whether a position is in a region.
   bool belongs(const double *x, imageint image, int region) const;
+
+  /// Frees the memory for where the surface was: until the next check no position is looked up.
+  void forget_places();
 
   double memory_usage() const;
 
