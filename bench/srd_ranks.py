@@ -2,6 +2,7 @@
 """What fix srd/mesh sends, holds and takes on several ranks to let solvent meet a vesicle.
 
   bench/srd_ranks.py [--lmp build/lmp] [--ranks 1,2,4] [--sizes 3,4] [--args "angle 90"] [--steps 100]
+                     [--density 12.5]
 
 For each size of the vesicle (a refinement level: 642 control points at 3, 2,562 at 4, ...) and number of ranks:
 bytes that a rank sends in a step, its peak memory, and the time of the loop over that of the smallest number
@@ -24,12 +25,12 @@ RANK = ("import resource, subprocess, sys; code = subprocess.call(sys.argv[1:]);
         "sys.stderr.write('rank took %d kB\\n' % resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss); sys.exit(code)")
 
 
-def scene(level):
+def scene(level, density):
     """Vesicles with edges of about one cell, in a box with four cells around them."""
     radius = 6.0 * 2 ** (level - 3)
     half = radius + 4.0
     return {"vesicle": "yes", "level": str(level), "radius": str(radius), "half": str(half),
-            "atoms": str(round(12.5 * (2 * half) ** 3)), "solver": "iterative"}
+            "atoms": str(round(density * (2 * half) ** 3)), "solver": "iterative"}
 
 
 def measure(lmp, ranks, variables):
@@ -61,6 +62,7 @@ def main():
     parser.add_argument("--sizes", default="3,4")
     parser.add_argument("--args", default="angle 90")
     parser.add_argument("--steps", type=int, default=100)
+    parser.add_argument("--density", type=float, default=12.5, help="solvent atoms in a cell")
     options = parser.parse_args()
     print("points  ranks   bytes a step (coupling)      memory in MB (coupling)  time (coupling)")
     for level in map(int, options.sizes.split(",")):
@@ -68,7 +70,7 @@ def main():
         for ranks in map(int, options.ranks.split(",")):
             both = {}
             for couple in ("yes", "no"):
-                variables = {**scene(level), "couple": couple}
+                variables = {**scene(level, options.density), "couple": couple}
                 if couple == "yes":
                     variables["args"] = options.args
                 few = measure(options.lmp, ranks, {**variables, "steps": str(options.steps // 5)})[0]

@@ -31,7 +31,8 @@ using namespace LAMMPS_NS;
 ------------------------------------------------------------------------- */
 
 VertexCopies::VertexCopies(LAMMPS *lmp, const std::vector<int> &owned, std::vector<int> wanted) :
-    Pointers(lmp), num_owned(static_cast<int>(owned.size()))
+    Pointers(lmp), num_owned(static_cast<int>(owned.size())), values(nullptr), width(0),
+    stride(0)
 {
   const int nprocs = comm->nprocs;
   if (nprocs == 1) return;
@@ -90,25 +91,32 @@ std::vector<int> VertexCopies::find_owners(const std::vector<int> &owned,
 
 /* ---------------------------------------------------------------------- */
 
-void VertexCopies::begin(const double *owned, double *to, int width)
+void VertexCopies::begin(const double *owned, double *to, int w, int of)
 {
+  values = to;
+  width = w;
+  stride = of;
   int n = 0;
-  for (Partner &p : partners)
-    MPI_Irecv(to + (size_t) width * p.first, width * p.count, MPI_DOUBLE, p.rank, 0, world,
-              &requests[n++]);
   for (Partner &p : partners) {
-    p.buffer.resize(width * p.send.size());
-    for (size_t i = 0; i < p.send.size(); ++i)
-      std::copy_n(owned + (size_t) width * p.send[i], width, p.buffer.data() + width * i);
-    MPI_Isend(p.buffer.data(), static_cast<int>(p.buffer.size()), MPI_DOUBLE, p.rank, 0, world,
+    p.in.resize(width * p.count);
+    MPI_Irecv(p.in.data(), width * p.count, MPI_DOUBLE, p.rank, 0, world, &requests[n++]);
+  }
+  for (Partner &p : partners) {
+    p.out.resize(width * p.send.size());
+    double *out = p.out.data();
+    for (int i : p.send) out = std::copy_n(owned + (size_t) stride * i, width, out);
+    MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, 0, world,
               &requests[n++]);
   }
 }
 
 void VertexCopies::end()
 {
-  if (!requests.empty())
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), statuses.data());
+  if (requests.empty()) return;
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), statuses.data());
+  for (const Partner &p : partners)
+    for (int i = 0; i < p.count; ++i)
+      std::copy_n(&p.in[(size_t) width * i], width, values + (size_t) stride * (p.first + i));
 }
 
 /* ----------------------------------------------------------------------
@@ -152,6 +160,6 @@ double VertexCopies::memory_usage() const
 {
   double bytes = sizeof(int) * copies.capacity();
   for (const Partner &p : partners)
-    bytes += sizeof(int) * p.send.capacity() + sizeof(double) * p.buffer.capacity();
+    bytes += sizeof(int) * p.send.capacity() + sizeof(double) * (p.out.capacity() + p.in.capacity());
   return bytes;
 }

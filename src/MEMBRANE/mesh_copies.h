@@ -31,9 +31,10 @@ class VertexCopies : protected Pointers {
   /// The copies, sorted by owner.
   const std::vector<int> &vertices() const { return copies; }
 
-  /// Values, `width` numbers a vertex, of the owned vertices in the order in which they were given,
-  /// to all copies in the order of vertices(). In two halves: between them neither may change.
-  void begin(const double *owned, double *copies, int width);
+  /// Values, the first `width` of `stride` numbers a vertex, of the owned vertices in the order in
+  /// which they were given, to all copies in the order of vertices(). In two halves: between them
+  /// neither may change.
+  void begin(const double *owned, double *copies, int width, int stride);
   void end();
 
   /// Lists, one for each vertex.
@@ -53,9 +54,11 @@ class VertexCopies : protected Pointers {
     int rank;
     std::vector<int> send;    // owned vertices that it has copies of
     int first, count;         // where its vertices are among the copies here
-    std::vector<double> buffer;
+    std::vector<double> out, in;
   };
   int num_owned;
+  double *values;       // of the copies, where they are to come
+  int width, stride;    // of these
   std::vector<int> copies;
   std::vector<Partner> partners;
   std::vector<MPI_Request> requests;

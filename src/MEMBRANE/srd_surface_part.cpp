@@ -136,7 +136,7 @@ void SRDSurfacePart::spread(const std::vector<double> &owned, int width,
 {
   received.resize(width * copy_place.size());
   values.resize(width * mass.size());
-  copies->begin(owned.data(), received.data(), width);
+  copies->begin(owned.data(), received.data(), width, width);
   for (size_t i = 0; i < owned_place.size(); ++i)
     std::copy_n(&owned[width * i], width, &values[(size_t) width * owned_place[i]]);
   copies->end();
