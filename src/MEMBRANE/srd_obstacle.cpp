@@ -156,7 +156,7 @@ bigint SurfaceObstacle::count_strays(const SRDSolvent &solvent) const
 
 bigint SurfaceObstacle::put_back(const SRDSolvent &solvent, bigint step)
 {
-  const auto here = rescue.put_back(solvent, contact(), step);
+  auto here = rescue.put_back(solvent, contact(), step);
   if (here.rescued > 0) meetings.solvent_changed();
   tally[CROSSINGS] += here.crossed;
   tally[RESCUES] += here.rescued;

@@ -70,7 +70,7 @@ class SRDSurfacePart : protected Pointers {
   std::vector<int> find_in(const Eigen::Vector3d &lo, const Eigen::Vector3d &hi,
                            const Eigen::Matrix3d &lattice,
                            const std::vector<Membrane_NS::SurfaceVertex> &vertices) const;
-  /// Collective; then sharers() knows.
+  /// Collective; call before asking for sharers.
   void find_sharers();
   /// The other ranks that have a mass, between these.
   const int *first_sharer(int mass) const { return shared.begin(sharing[mass]); }
