@@ -422,7 +422,7 @@ const int *FixSRDMesh::sides()
 {
   if (!have_obstacle) return nullptr;
   const SurfaceRegions &regions = obstacle->regions;
-  side.resize(atom->nlocal);
+  side.resize(MAX(1, atom->nlocal));    // null would mean no sides, on ranks without atoms
   regions.find_parities(solvent, side.data());
   for (int k = 0; k < 3; ++k) cells->flips[k] = regions.flips(k);
   return side.data();

@@ -41,6 +41,13 @@ class SurfaceSide {
               const std::array<bool, 3> &periodic);
 
   int level(const Eigen::Vector3d &x) const;
+  /// Frees nearly all memory: then only what follows may be asked.
+  void forget_triangles()
+  {
+    std::vector<Triangle>().swap(triangles_);
+    std::vector<Entry>().swap(entries_);
+    std::vector<int>().swap(start_);
+  }
 
   // === Images
 

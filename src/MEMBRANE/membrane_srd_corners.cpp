@@ -200,17 +200,48 @@ SurfaceCorners::SurfaceCorners(const Topology &topology, int n, const Seams &sea
   }
 
   start_.push_back(0);
-  dependents_start_.assign(num_masses_ + 1, 0);
   for (const auto &row : rows) {
     entries_.insert(entries_.end(), row.begin(), row.end());
     start_.push_back(entries_.size());
-    for (const Entry &e : row) ++dependents_start_[e.first + 1];
   }
+  find_dependents();
+}
+
+SurfaceCorners::SurfaceCorners(const SurfaceCorners &whole, const std::vector<int> &masses,
+                               const std::vector<int> &corners) :
+    num_masses_(static_cast<int>(masses.size()))
+{
+  start_.push_back(0);
+  for (int a = 0; a < num_masses_; ++a) {
+    entries_.emplace_back(a, 1.0);
+    start_.push_back(entries_.size());
+  }
+  for (int c : corners) add(whole, masses, c);
+  shifts_.assign(num_masses_, Eigen::Vector3d::Zero());
+  for (int c : corners) shifts_.push_back(whole.shift(c));
+  find_dependents();
+}
+
+int SurfaceCorners::add(const SurfaceCorners &whole, const std::vector<int> &masses, int corner)
+{
+  for (const auto &[a, g] : whole.masses_of(corner)) {
+    const auto at = std::lower_bound(masses.begin(), masses.end(), a);
+    if (at != masses.end() && *at == a)
+      entries_.emplace_back(static_cast<int>(at - masses.begin()), g);
+  }
+  start_.push_back(entries_.size());
+  return count() - 1;
+}
+
+void SurfaceCorners::find_dependents()
+{
+  dependents_start_.assign(num_masses_ + 1, 0);
+  for (const Entry &e : entries_) ++dependents_start_[e.first + 1];
   for (int a = 0; a < num_masses_; ++a) dependents_start_[a + 1] += dependents_start_[a];
   dependents_.resize(entries_.size());
   std::vector<size_t> next(dependents_start_.begin(), dependents_start_.end() - 1);
-  for (int c = 0; c < num_corners; ++c)
-    for (const Entry &e : rows[c]) dependents_[next[e.first]++] = {c, e.second};
+  for (int c = 0; c < count(); ++c)
+    for (const Entry &e : masses_of(c)) dependents_[next[e.first]++] = {c, e.second};
 }
 
 double SurfaceCorners::memory_usage() const

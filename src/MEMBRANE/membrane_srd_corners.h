@@ -48,6 +48,14 @@ class SurfaceCorners {
 
   /// Without seams if no face passes through the boundary of the box.
   SurfaceCorners(const Topology &topology, int n, const Seams &seams = {});
+  /** A part of them with numbers of its own: these masses, and after them these corners, both in
+      ascending order and none of the former among the latter. All masses of the corners must be
+      among these. Has no triangles. */
+  SurfaceCorners(const SurfaceCorners &whole, const std::vector<int> &masses,
+                 const std::vector<int> &corners);
+  /// Another corner of the whole for such a part, for masses_of() alone, and with those masses only
+  /// that it has; returns its number.
+  int add(const SurfaceCorners &whole, const std::vector<int> &masses, int corner);
 
   int count() const { return static_cast<int>(start_.size()) - 1; }
   int num_masses() const { return num_masses_; }
@@ -71,6 +79,7 @@ class SurfaceCorners {
   std::vector<size_t> start_, dependents_start_;
   std::vector<Eigen::Vector3d> shifts_;
 
+  void find_dependents();
   static Row row(const std::vector<Entry> &entries, const std::vector<size_t> &start, int i)
   {
     return {entries.data() + start[i], entries.data() + start[i + 1]};

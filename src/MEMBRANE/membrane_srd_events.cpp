@@ -287,7 +287,9 @@ void CollisionEvents::share(const std::array<int, 3> &vertex, const std::array<d
 {
   masses_.clear();
   for (int k = 0; k < 3; ++k)
-    if (settings_.corners)
+    if (vertex[k] < 0)
+      continue;
+    else if (settings_.corners)
       for (const auto &[a, g] : settings_.corners->masses_of(vertex[k]))
         masses_.add(a, weight[k] * g);
     else

@@ -30,7 +30,7 @@ namespace Membrane_NS {
 struct SurfaceImpulse {
   double time;
   int64_t tag;                     ///< of the point that it came from
-  std::array<int, 3> vertex;       ///< of the triangle
+  std::array<int, 3> vertex;       ///< of the triangle; -1 for others than those of the events
   std::array<double, 3> weight;    ///< barycentric, of the place where it was hit
   Eigen::Vector3d impulse;
   int control;    ///< the control point that took it, or -1: the three vertices

@@ -44,6 +44,15 @@ InverseMask::InverseMask(const Topology &topology) : topology_(topology)
   reached_.assign(n, 0);
 }
 
+void InverseMask::renumber(const std::vector<int> &vertices)
+{
+  known_.clear();
+  entries_ = 0;
+  vertices_ = vertices;
+  number_.assign(topology_.num_vertices(), -1);
+  for (size_t i = 0; i < vertices.size(); ++i) number_[vertices[i]] = static_cast<int>(i);
+}
+
 const ControlWeights::Row &InverseMask::row(int v)
 {
   const auto found = known_.find(v);
@@ -52,7 +61,9 @@ const ControlWeights::Row &InverseMask::row(int v)
     known_.clear();
     entries_ = 0;
   }
-  Row &row = known_[v] = solve(v);
+  Row &row = known_[v] = solve(vertices_.empty() ? v : vertices_[v]);
+  if (!vertices_.empty())
+    for (int &a : row.vertex) a = number_[a];
   entries_ += row.vertex.size();
   return row;
 }

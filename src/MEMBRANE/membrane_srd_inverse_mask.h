@@ -29,6 +29,9 @@ class InverseMask : public ControlWeights {
  public:
   /// The topology must outlive this.
   explicit InverseMask(const Topology &topology);
+  /// Rows are asked for, and have vertices, in other numbers than the topology's: these are its
+  /// vertices in the order of those numbers. All vertices of a row must be among them.
+  void renumber(const std::vector<int> &vertices);
   const Row &row(int control_point) override;
   double memory_usage() const;
 
@@ -41,6 +44,7 @@ class InverseMask : public ControlWeights {
   size_t entries_ = 0;
   std::vector<double> x_, residual_, step_, next_;    // zero but while a row is worked out
   std::vector<char> reached_;
+  std::vector<int> vertices_, number_;    // from a user's numbers to the topology's and back
 
   Row solve(int v);
 };

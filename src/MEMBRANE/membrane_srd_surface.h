@@ -38,6 +38,20 @@ struct SurfaceVertex {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();    ///< by forces, see CollisionEvents
 };
 
+/// The corners of a face at the start of the step, together in the image of its first.
+inline std::array<Eigen::Vector3d, 3> corners_together(const SurfaceFaces &surface, size_t face,
+                                                       const std::vector<SurfaceVertex> &vertices,
+                                                       const Eigen::Matrix3d &lattice)
+{
+  std::array<Eigen::Vector3d, 3> x;
+  for (int k = 0; k < 3; ++k) {
+    x[k] = vertices[surface.faces[face][k]].path.origin;
+    if (!surface.seams.empty())
+      for (int j = 0; j < 3; ++j) x[k] += surface.seams[face][k][j] * lattice.col(j);
+  }
+  return x;
+}
+
 /// A triangle of the surface, in the periodic image where a point may meet it.
 struct SurfaceTriangle {
   std::array<int, 3> vertex;

@@ -28,15 +28,10 @@ static constexpr double ROUNDING = 1.0e-9;
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
-                        const Matrix3d &lattice, const std::array<bool, 3> &periodic,
-                        const Vector3d &lo, const Vector3d &hi, const Settings &settings)
+void SurfaceGrid::cut(const Vector3d &lo, const Vector3d &hi, const Settings &settings)
 {
   settings_ = settings;
   lo_ = lo;
-  built_at_.resize(vertices.size());
-  for (size_t v = 0; v < vertices.size(); ++v) built_at_[v] = vertices[v].path.origin;
-
   const Vector3d extent = hi - lo;
   spacing_ = std::max(settings.spacing, std::cbrt(extent.prod() / settings.most_cubes));
   for (;; spacing_ *= 1.26) {
@@ -47,14 +42,18 @@ void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVe
     break;
   }
   inverse_spacing_ = 1.0 / spacing_;
+}
 
-  const double pad = settings.skin + settings.reach;
-  const Vector3d end = lo + spacing_ * Vector3d(size_[0], size_[1], size_[2]);
-  find_images(surface, vertices, lattice, periodic, lo, end, pad);
+void SurfaceGrid::build(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
+                        const Matrix3d &lattice, const std::array<bool, 3> &periodic)
+{
+  built_at_.resize(vertices.size());
+  for (size_t v = 0; v < vertices.size(); ++v) built_at_[v] = vertices[v].path.origin;
+  find_images(surface, vertices, lattice, periodic, lo_, end(), pad());
   begin(vertices, 0.0, 0.0);
-  fill(pad);
+  fill(pad());
   find_distances();
-  listed_ = pad;
+  listed_ = pad();
 }
 
 /* ----------------------------------------------------------------------

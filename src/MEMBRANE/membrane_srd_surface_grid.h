@@ -40,10 +40,14 @@ class SurfaceGrid : public SurfaceImages {
     int most_cubes = 1 << 22;
   };
 
-  /// For points between lo and hi. Lattice columns are the box vectors.
+  /// Cuts the space for points between lo and hi into cubes, to build the grid anew.
+  void cut(const Eigen::Vector3d &lo, const Eigen::Vector3d &hi, const Settings &settings);
+  /// What the cubes are to know: all triangles that come into the region between these.
+  Eigen::Vector3d region_lo() const { return lo_.array() - pad(); }
+  Eigen::Vector3d region_hi() const { return end().array() + pad(); }
+  /// After cut(). Lattice columns are the box vectors.
   void build(const SurfaceFaces &surface, const std::vector<SurfaceVertex> &vertices,
-             const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic,
-             const Eigen::Vector3d &lo, const Eigen::Vector3d &hi, const Settings &settings);
+             const Eigen::Matrix3d &lattice, const std::array<bool, 3> &periodic);
   bool is_built() const { return !start_.empty(); }
   /// Whether vertices are, at the start of a step, where the grid can find them.
   bool is_valid_for(const std::vector<SurfaceVertex> &vertices, const Eigen::Matrix3d &lattice);
@@ -113,6 +117,11 @@ class SurfaceGrid : public SurfaceImages {
   std::vector<int> seen_;
   int clock_ = 0;
 
+  double pad() const { return settings_.skin + settings_.reach; }
+  Eigen::Vector3d end() const
+  {
+    return lo_ + spacing_ * Eigen::Vector3d(size_[0], size_[1], size_[2]);
+  }
   void fill(double pad);
   template <class Visit> void visit_cubes(double pad, const Visit &visit);
   // the cubes that a box comes to; false if it leaves the grid

@@ -17,6 +17,8 @@
 
 #include "membrane_srd_surface_images.h"
 
+#include "membrane_srd_image_finder.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -47,46 +49,14 @@ void SurfaceImages::list_images(const SurfaceFaces &surface,
                                 const std::array<bool, 3> &periodic, const Vector3d &lo,
                                 const Vector3d &hi, double pad)
 {
-  const Matrix3d &lattice = lattice_, to_fraction = lattice.inverse();
-  const Vector3d lo_padded = lo.array() - pad, hi_padded = hi.array() + pad;
-  Vector3d region_lo = Vector3d::Constant(INFINITY), region_hi = -region_lo;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vector3d x;
-    for (int k = 0; k < 3; ++k) x[k] = corner >> k & 1 ? hi_padded[k] : lo_padded[k];
-    const Vector3d s = to_fraction * x;
-    region_lo = region_lo.cwiseMin(s);
-    region_hi = region_hi.cwiseMax(s);
-  }
-
+  const Vector3d margin = Vector3d::Constant(pad);
+  const ImageFinder region(lattice_, periodic, lo - margin, hi + margin);
   images_.clear();
-  for (size_t f = 0; f < surface.faces.size(); ++f) {
-    std::array<Vector3d, 3> x;
-    Vector3d first = Vector3d::Constant(INFINITY), last = -first;
-    for (int k = 0; k < 3; ++k) {
-      x[k] = vertices[surface.faces[f][k]].path.origin;
-      if (!surface.seams.empty())
-        for (int j = 0; j < 3; ++j) x[k] += surface.seams[f][k][j] * lattice.col(j);
-      const Vector3d s = to_fraction * x[k];
-      first = first.cwiseMin(s);
-      last = last.cwiseMax(s);
-    }
-    std::array<int, 3> from = {0, 0, 0}, to = {0, 0, 0}, i;
-    for (int k = 0; k < 3; ++k)
-      if (periodic[k]) {
-        from[k] = static_cast<int>(std::ceil(region_lo[k] - last[k]));
-        to[k] = static_cast<int>(std::floor(region_hi[k] - first[k]));
-      }
-    for (i[0] = from[0]; i[0] <= to[0]; ++i[0])
-      for (i[1] = from[1]; i[1] <= to[1]; ++i[1])
-        for (i[2] = from[2]; i[2] <= to[2]; ++i[2]) {
-          const Vector3d shift = lattice * Vector3d(i[0], i[1], i[2]);
-          bool near = true;
-          for (int k = 0; k < 3 && near; ++k)
-            near = std::min({x[0][k], x[1][k], x[2][k]}) + shift[k] <= hi_padded[k] &&
-                std::max({x[0][k], x[1][k], x[2][k]}) + shift[k] >= lo_padded[k];
-          if (near) images_.push_back({static_cast<int>(f), i});
-        }
-  }
+  for (size_t f = 0; f < surface.faces.size(); ++f)
+    region.for_each(corners_together(surface, f, vertices, lattice_),
+                    [&](const std::array<int, 3> &image) {
+                      images_.push_back({static_cast<int>(f), image});
+                    });
 }
 
 // few corners are not the vertex itself but one of its images

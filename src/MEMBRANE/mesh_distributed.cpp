@@ -123,7 +123,13 @@ void DistributedMesh::refresh()
 
   const bool rebuilt =
       stale || seen_ncalls != neighbor->ncalls || seen_lastcall != neighbor->lastcall;
-  if (!rebuilt && seen_nlocal == atom->nlocal && seen_nghost == atom->nghost) return;
+  int changed = rebuilt || seen_nlocal != atom->nlocal || seen_nghost != atom->nghost;
+
+  // between runs a command may take atoms from one rank alone, and all follow together
+
+  if (lmp->update->whichflag == 0)
+    MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
+  if (!changed) return;
 
   // rerun reads coordinates, perhaps without image flags, between update() and setup
 

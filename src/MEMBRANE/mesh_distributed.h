@@ -63,7 +63,8 @@ class DistributedMesh : public MeshFaces {
 
   // === This rank's part: the faces whose first corner it owns
 
-  /// Call before using what follows in a time step; cheap unless LAMMPS has reneighboured since.
+  /// Collective; call before using what follows in a time step; cheap unless LAMMPS has reneighboured
+  /// since.
   void refresh();
   /// Counts reneighbourings: local indices are valid as long as this stays the same.
   bigint epoch() const { return local_epoch; }

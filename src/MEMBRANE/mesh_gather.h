@@ -36,6 +36,30 @@ template <typename T> std::vector<T> gather_all(const std::vector<T> &mine, MPI_
   return all;
 }
 
+/// Collective: each rank has a list for each other one, by rank; returns those for this one. Few
+/// ranks may have something for each other.
+template <typename T>
+std::vector<std::vector<T>> exchange_lists(const std::vector<std::vector<T>> &to, MPI_Comm world)
+{
+  const int nprocs = static_cast<int>(to.size());
+  if (nprocs == 1) return to;
+  std::vector<int> sent(nprocs), received(nprocs), sent_start(nprocs + 1, 0),
+      received_start(nprocs + 1, 0);
+  for (int p = 0; p < nprocs; ++p) sent[p] = static_cast<int>(to[p].size() * sizeof(T));
+  MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, world);
+  std::partial_sum(sent.begin(), sent.end(), sent_start.begin() + 1);
+  std::partial_sum(received.begin(), received.end(), received_start.begin() + 1);
+  std::vector<T> out, in(received_start[nprocs] / sizeof(T));
+  for (const auto &list : to) out.insert(out.end(), list.begin(), list.end());
+  MPI_Alltoallv(out.data(), sent.data(), sent_start.data(), MPI_BYTE, in.data(), received.data(),
+                received_start.data(), MPI_BYTE, world);
+  std::vector<std::vector<T>> from;
+  for (int p = 0; p < nprocs; ++p)
+    from.emplace_back(in.begin() + received_start[p] / sizeof(T),
+                      in.begin() + received_start[p + 1] / sizeof(T));
+  return from;
+}
+
 }    // namespace LAMMPS_NS
 
 #endif

@@ -67,22 +67,14 @@ bool MeshPart::find_atoms(const DistributedMesh &mesh)
   return found;
 }
 
-/* ----------------------------------------------------------------------
-   halo vertices sorted by the rank that owns them; each rank asks the owners for what it needs
-------------------------------------------------------------------------- */
+// halo vertices are sorted by the rank that owns them
 
 void MeshPart::find_halo(const DistributedMesh &mesh, int rings)
 {
   const auto &topology = mesh.topology();
-  const int n = topology.num_vertices(), nprocs = comm->nprocs;
-
-  std::vector<int> mine(n, -1), owner(n);
-  for (int i = 0; i < owned; ++i) mine[vertices[i]] = comm->me;
-  MPI_Allreduce(mine.data(), owner.data(), n, MPI_INT, MPI_MAX, world);
-
-  std::vector<char> reached(n, 0);
-  for (int i = 0; i < owned; ++i) reached[vertices[i]] = 1;
-  std::vector<int> front(vertices), halo;
+  std::vector<char> reached(topology.num_vertices(), 0);
+  for (int v : vertices) reached[v] = 1;
+  std::vector<int> front(vertices), around;
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<int> beyond;
     for (int v : front)
@@ -91,60 +83,24 @@ void MeshPart::find_halo(const DistributedMesh &mesh, int rings)
           reached[w] = 1;
           beyond.push_back(w);
         }
-    halo.insert(halo.end(), beyond.begin(), beyond.end());
+    around.insert(around.end(), beyond.begin(), beyond.end());
     front.swap(beyond);
   }
-  std::sort(halo.begin(), halo.end(), [&owner](int a, int b) {
-    return std::pair(owner[a], a) < std::pair(owner[b], b);
-  });
-  vertices.insert(vertices.end(), halo.begin(), halo.end());
-
-  std::vector<int> wanted(nprocs, 0), asked(nprocs), wanted_start(nprocs + 1, 0),
-      asked_start(nprocs + 1, 0);
-  for (int v : halo) ++wanted[owner[v]];
-  MPI_Alltoall(wanted.data(), 1, MPI_INT, asked.data(), 1, MPI_INT, world);
-  for (int p = 0; p < nprocs; ++p) {
-    wanted_start[p + 1] = wanted_start[p] + wanted[p];
-    asked_start[p + 1] = asked_start[p] + asked[p];
-  }
-  std::vector<int> requested(asked_start[nprocs]);
-  MPI_Alltoallv(halo.data(), wanted.data(), wanted_start.data(), MPI_INT, requested.data(),
-                asked.data(), asked_start.data(), MPI_INT, world);
-
-  std::vector<int> local(n, -1);
-  for (int i = 0; i < owned; ++i) local[vertices[i]] = i;
-  for (int p = 0; p < nprocs; ++p) {
-    if (wanted[p] == 0 && asked[p] == 0) continue;
-    Partner partner;
-    partner.rank = p;
-    partner.first = owned + wanted_start[p];
-    partner.count = wanted[p];
-    for (int i = asked_start[p]; i < asked_start[p + 1]; ++i)
-      partner.send.push_back(local[requested[i]]);
-    partner.buffer.resize(partner.send.size());
-    partners.push_back(std::move(partner));
-  }
-  requests.resize(2 * partners.size());
-  statuses.resize(2 * partners.size());
+  halo = std::make_unique<VertexCopies>(lmp, vertices, std::move(around));
+  vertices.insert(vertices.end(), halo->vertices().begin(), halo->vertices().end());
 }
 
-/* ---------------------------------------------------------------------- */
+// the fourth number of a vertex is there for alignment only
 
 void MeshPart::begin_halo(VertexField &field)
 {
-  int n = 0;
-  for (Partner &p : partners)
-    MPI_Irecv(field.data() + p.first, 4 * p.count, MPI_DOUBLE, p.rank, 0, world, &requests[n++]);
-  for (Partner &p : partners) {
-    for (size_t i = 0; i < p.send.size(); ++i) p.buffer[i] = field[p.send[i]];
-    MPI_Isend(p.buffer.data(), 4 * p.send.size(), MPI_DOUBLE, p.rank, 0, world, &requests[n++]);
-  }
+  auto *values = reinterpret_cast<double *>(field.data());
+  if (halo) halo->begin(values, values + 4 * (size_t) owned, 3, 4);
 }
 
 void MeshPart::end_halo(VertexField &)
 {
-  if (!requests.empty())
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), statuses.data());
+  if (halo) halo->end();
 }
 
 void MeshPart::sum(double *values, int n)

@@ -15,8 +15,9 @@
 #define LMP_MESH_PART_H
 
 #include "membrane_vertex_part.h"
-#include "pointers.h"
+#include "mesh_copies.h"
 
+#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -48,17 +49,9 @@ class MeshPart : public Membrane_NS::VertexPart, protected Pointers {
   void store(const Membrane_NS::VertexField &field, double **peratom) const;
 
  private:
-  struct Partner {
-    int rank;
-    std::vector<int> send;    // owned vertices that are in the partner's halo
-    int first, count;         // where its vertices are in the halo
-    std::vector<Membrane_NS::Vector4> buffer;
-  };
   int groupbit;
   std::vector<int> atoms;
-  std::vector<Partner> partners;
-  std::vector<MPI_Request> requests;
-  std::vector<MPI_Status> statuses;    // LAMMPS' stand-in for MPI cannot ignore them
+  std::unique_ptr<VertexCopies> halo;    // on several ranks
 
   bool find_atoms(const class DistributedMesh &);
   void find_halo(const class DistributedMesh &, int rings);

@@ -15,7 +15,6 @@
 #define LMP_SRD_IMPULSE_EXCHANGE_H
 
 #include "membrane_srd_events.h"
-#include "membrane_srd_surface_images.h"
 #include "pointers.h"
 
 #include <string>
@@ -28,15 +27,14 @@ namespace LAMMPS_NS {
     Each rank works out its atoms' collisions for given impulses of others. Those that come first in
     time are right at once, and what they cause is right after one exchange more, so impulses are
     exchanged until none changes: two or three times, since few cross from rank to rank in a step.
-    */
+    What acts on a mass goes to all ranks that have it, and to no other. */
 class ImpulseExchange : protected Pointers {
  public:
-  /// everywhere: impulses act far from where they are, too. `user` is named in errors.
-  ImpulseExchange(class LAMMPS *, const class SurfaceMotion &, bool everywhere, std::string user);
+  /// `user` is named in errors.
+  ImpulseExchange(class LAMMPS *, class SurfaceMotion &, std::string user);
 
-  /** Collective; call when this rank's solvent may meet other images than before: what happens to a
-      vertex concerns other ranks unless only its owner's solvent comes near it. */
-  void find_shared(const std::vector<Membrane_NS::SurfaceImages::Image> &images);
+  /// Call when what this rank has of the surface has changed.
+  void find_partners();
 
   /// A step begins: no impulses are known.
   void begin();
@@ -47,15 +45,24 @@ class ImpulseExchange : protected Pointers {
   bool exchange(const std::vector<Membrane_NS::SurfaceImpulse> &impulses);
 
  private:
-  const SurfaceMotion &motion;
-  bool everywhere;
+  SurfaceMotion &motion;
   std::string user;
-  std::vector<char> shared;    // if not everywhere: vertices that atoms of several ranks may touch
-  std::vector<Membrane_NS::SurfaceImpulse> all, others;    // as of the last exchange
-  int exchanges;                                           // in this step
+  struct Partner {
+    int rank;
+    std::vector<Membrane_NS::SurfaceImpulse> out, in;    // vertices by numbers of the whole surface
+    int sends, receives;
+  };
+  std::vector<Partner> partners;    // with which this rank has masses in common
+  std::vector<int> partner_of;      // of a rank, or -1
+  std::vector<MPI_Request> requests;
+  std::vector<MPI_Status> statuses;
+  std::vector<Membrane_NS::SurfaceImpulse> sent, others;    // as of the last exchange
+  std::vector<char> concerned;                              // of partners
+  int exchanges;                                            // in this step
 
-  std::vector<Membrane_NS::SurfaceImpulse>
-  that_concern_others(const std::vector<Membrane_NS::SurfaceImpulse> &) const;
+  bool find_concerned(const Membrane_NS::SurfaceImpulse &);
+  void add_sharers(int mass, bool &any);
+  void send_and_receive();
 };
 
 }    // namespace LAMMPS_NS

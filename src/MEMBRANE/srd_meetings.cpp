@@ -39,7 +39,6 @@ using Membrane_NS::BoxWalls;
 using Membrane_NS::CollisionEvents;
 using Membrane_NS::MovingPoint;
 using Membrane_NS::SurfaceGrid;
-using Membrane_NS::SurfaceVertex;
 
 // what flies further in a step, in sub-domains, is no solvent any more
 static constexpr double MOST_BOXES = 1000.0;
@@ -65,7 +64,7 @@ static constexpr double FAST = 2.5;
 
 /* ---------------------------------------------------------------------- */
 
-SurfaceMeetings::SurfaceMeetings(LAMMPS *lmp, const SurfaceMotion &motion,
+SurfaceMeetings::SurfaceMeetings(LAMMPS *lmp, SurfaceMotion &motion,
                                  const SurfaceRegions &regions, const Settings &settings) :
     Pointers(lmp),
     motion(motion), regions(regions), settings(settings), mesh(lmp, settings.user), speed(0.0),
@@ -84,19 +83,28 @@ void SurfaceMeetings::setup()
 
 // === The grid
 
-bool SurfaceMeetings::update_grid(const SRDFlight &flight,
-                                  const std::vector<SurfaceVertex> &vertices)
+bool SurfaceMeetings::has_grid()
 {
   const bool new_owners = mesh.follow() != MeshChange::NOTHING && comm->nprocs > 1;
-  if (!new_owners && grid.is_valid_for(vertices, motion.lattice_now())) return false;
-  build_grid(flight, vertices);
-  return true;
+  return grid.is_valid_for(motion.paths(), motion.lattice_now()) && !new_owners;
+}
+
+bool SurfaceMeetings::build_grid(const SRDFlight &flight)
+{
+  cut_space(flight);
+  const auto images = grid.images();
+  const bool same_box = grid.lattice() == motion.lattice_now();
+  const bool other_part = motion.have_near(grid.region_lo(), grid.region_hi());
+  grid.build(motion.here().faces(), motion.paths(), motion.lattice_now(),
+             periodic_directions(*domain));
+  // the list knows triangles by their numbers, and not of images that move with the box
+  if (other_part || !same_box || grid.images() != images) approaching.clear();
+  return other_part;
 }
 
 // where this rank's solvent is, and may come to be before the grid is built anew
 
-void SurfaceMeetings::build_grid(const SRDFlight &flight,
-                                 const std::vector<SurfaceVertex> &vertices)
+void SurfaceMeetings::cut_space(const SRDFlight &flight)
 {
   const SRDSolvent &solvent = flight.solvent;
   Vector3d lo = Vector3d::Map(domain->sublo), hi = Vector3d::Map(domain->subhi);
@@ -125,12 +133,7 @@ void SurfaceMeetings::build_grid(const SRDFlight &flight,
   s.spacing = settings.spacing > 0.0 ? settings.spacing : SPACING * edge;
   s.most_cubes = std::min(1 << 24, 4096 + 8 * solvent.count());
   const Vector3d margin = Vector3d::Constant(settings.stray + edge);
-  const auto images = grid.images();
-  const bool same_box = grid.lattice() == motion.lattice_now();
-  grid.build(motion.surface().faces(), vertices, motion.lattice_now(), periodic_directions(*domain),
-             lo - margin, hi + margin, s);
-  // the list knows triangles by their numbers, and not of images that move with the box
-  if (!same_box || grid.images() != images) approaching.clear();
+  grid.cut(lo - margin, hi + margin, s);
 }
 
 /* ----------------------------------------------------------------------
@@ -138,9 +141,9 @@ void SurfaceMeetings::build_grid(const SRDFlight &flight,
    grid
 ------------------------------------------------------------------------- */
 
-bool SurfaceMeetings::gather(const SRDFlight &flight, const std::vector<SurfaceVertex> &vertices,
-                             CollisionEvents &events)
+bool SurfaceMeetings::gather(const SRDFlight &flight, CollisionEvents &events)
 {
+  const auto &vertices = motion.paths();
   const SRDSolvent &solvent = flight.solvent;
   const BoxWalls &walls = flight.streaming.walls;
   const bool have_walls = walls.any();
@@ -149,7 +152,7 @@ bool SurfaceMeetings::gather(const SRDFlight &flight, const std::vector<SurfaceV
   grid.begin(vertices, flight.dt, vertex_slack, motion.lattice_rate());
   events.begin(vertices, grid.triangles(), flight.dt, vertex_slack, walls, motion.middle());
   if (solvent.count() == 0) return true;
-  if (!approaching.is_valid_for(grid, vertices, flight.dt)) list_approaching(flight, vertices);
+  if (!approaching.is_valid_for(grid, vertices, flight.dt)) list_approaching(flight);
 
   bool all_found = true;
   const double *masses = solvent.mass();
@@ -183,12 +186,11 @@ bool SurfaceMeetings::gather(const SRDFlight &flight, const std::vector<SurfaceV
   return all_found;
 }
 
-void SurfaceMeetings::list_approaching(const SRDFlight &flight,
-                                       const std::vector<SurfaceVertex> &vertices)
+void SurfaceMeetings::list_approaching(const SRDFlight &flight)
 {
   const SRDSolvent &solvent = flight.solvent;
   const double far = LONGEST * motion.surface().edge() / std::max(speed, 1.0e-300);
-  approaching.begin(grid, vertices, atom->nlocal,
+  approaching.begin(grid, motion.paths(), atom->nlocal,
                     std::max(flight.dt, std::min(flight.horizon, far)),
                     std::max(flight.dt, update->dt), 2.0 * point_slack);
   std::function<bool(int)> has;
@@ -221,11 +223,10 @@ void SurfaceMeetings::note(int i, const std::vector<int> &triangles, const SRDFl
   events.add_point(path, 1.0 / mass, atom->tag[i], flight.dt * path.velocity.norm() + point_slack);
   if (forces_on_solvent) events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
   const Vector3d way = flight.dt * path.velocity;
-  const SRDSurface &surface = motion.surface();
   for (int t : triangles) {
     const auto &image = grid.images()[t];
     events.add_pair(t,
-                    regions.side(regions.region[i], atom->image[i], surface.component(image.face),
+                    regions.side(regions.region[i], atom->image[i], motion.here().component(image.face),
                                  image.lattice),
                     grid.needs(t, path.origin.data(), way.data()));
   }

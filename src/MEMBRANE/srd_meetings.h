@@ -42,7 +42,7 @@ class SurfaceMeetings : protected Pointers {
     double stray = 0.0;      ///< how far solvent may be from its owner's sub-domain
     std::string user;        ///< named in errors
   };
-  SurfaceMeetings(class LAMMPS *, const class SurfaceMotion &, const class SurfaceRegions &,
+  SurfaceMeetings(class LAMMPS *, class SurfaceMotion &, const class SurfaceRegions &,
                   const Settings &);
   bool forces_on_solvent = false;    ///< and atom->f has them
 
@@ -59,17 +59,17 @@ class SurfaceMeetings : protected Pointers {
 
   // === A step, or a part of it
 
-  /// Collective. Whether the grid has been built anew for these vertices, as it must be when they
-  /// have moved far or have new owners.
-  bool update_grid(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &);
-  void build_grid(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &);
+  /// Whether the grid knows what this rank's solvent may meet; not when vertices have moved far or
+  /// LAMMPS has reneighboured.
+  bool has_grid();
+  /// Collective: makes what this rank has of the surface, see SurfaceMotion, and the grid anew.
+  /// Returns whether the former has changed.
+  bool build_grid(const SRDFlight &);
   /// Begins the events and gives them all that may happen; false if solvent may come beyond the
   /// grid.
-  bool gather(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &,
-              Membrane_NS::CollisionEvents &);
+  bool gather(const SRDFlight &, Membrane_NS::CollisionEvents &);
   /// All solvent to the end of its way, of which the events know those that meet the surface.
   void move(const SRDFlight &, const Membrane_NS::CollisionEvents &);
-  const std::vector<Membrane_NS::SurfaceImages::Image> &images() const { return grid.images(); }
 
   // === How far points and vertices may be found from where they are expected
 
@@ -82,10 +82,10 @@ class SurfaceMeetings : protected Pointers {
   double memory_usage() const { return grid.memory_usage() + approaching.memory_usage(); }
 
  private:
-  const SurfaceMotion &motion;
+  SurfaceMotion &motion;
   const SurfaceRegions &regions;
   Settings settings;
-  LocalMesh mesh;    // its owners are those for which the grid was built
+  LocalMesh mesh;    // the grid was built for the neighbours that it has seen
   Membrane_NS::SurfaceGrid grid;
   Membrane_NS::ApproachList approaching;    // of local atoms
   struct Near {    // an atom that may meet triangles in this step, and does if turned
@@ -99,7 +99,8 @@ class SurfaceMeetings : protected Pointers {
   double speed;    // of this rank's solvent, root mean square, when the grid was built
   double vertex_slack, point_slack;
 
-  void list_approaching(const SRDFlight &, const std::vector<Membrane_NS::SurfaceVertex> &);
+  void cut_space(const SRDFlight &);
+  void list_approaching(const SRDFlight &);
   bool find_and_note(int atom, const SRDFlight &, Membrane_NS::CollisionEvents &);
   void note(int atom, const std::vector<int> &triangles, const SRDFlight &,
             Membrane_NS::CollisionEvents &);

@@ -36,10 +36,10 @@ static SurfaceMeetings::Settings meeting_settings(const SurfaceObstacle::Setting
 }
 
 SurfaceObstacle::SurfaceObstacle(LAMMPS *lmp, const Settings &settings) :
-    Pointers(lmp), motion(lmp, settings.membranes, settings.level, settings.user),
+    Pointers(lmp), motion(lmp, settings.membranes, settings.level, settings.control, settings.user),
     regions(lmp, motion, settings.user),
     meetings(lmp, motion, regions, meeting_settings(settings)), tally{}, settings(settings),
-    impulses(lmp, motion, settings.control || settings.level > 0, settings.user),
+    impulses(lmp, motion, settings.user),
     in_cells(lmp, motion, settings.seed), rescue(lmp, motion, regions)
 {
 }
@@ -54,7 +54,7 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
 {
   motion.setup();
   regions.assign(solvent);
-  CollisionEvents::Settings rule;
+  rule = {};
   rule.no_slip = settings.no_slip;
   rule.contact = CONTACT * motion.surface().mesh_edge();
   if (settings.most_bounces > 0) rule.most_bounces = settings.most_bounces;
@@ -62,11 +62,6 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
     inverse_mask = std::make_unique<Membrane_NS::InverseMask>(motion.mesh().topology());
     rule.control = inverse_mask.get();
   }
-  if (motion.surface().corners()) {
-    rule.corners = motion.surface().corners();
-    rule.inverse_masses = &motion.all_inverse_masses();
-  }
-  events = CollisionEvents(rule);
   meetings.setup();
 }
 
@@ -74,24 +69,41 @@ void SurfaceObstacle::setup(const SRDSolvent &solvent)
    solvent and point masses move exactly for dt, see CollisionEvents
 ------------------------------------------------------------------------- */
 
+static bool anywhere(bool here, MPI_Comm world)
+{
+  int mine = here, any;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  return any != 0;
+}
+
 void SurfaceObstacle::stream(const SRDFlight &flight)
 {
-  const auto &vertices = motion.paths();
-  bool built = meetings.update_grid(flight, vertices);
-  int beyond = !meetings.gather(flight, vertices, events), any;
-  MPI_Allreduce(&beyond, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) {
-    meetings.build_grid(flight, vertices);
-    built = true;
+  const bool known = motion.find_paths(), grid = meetings.has_grid();
+  if (anywhere(!known || !grid, world)) build_grid(flight);
+  if (anywhere(!meetings.gather(flight, events), world)) {
+    build_grid(flight);
+    if (!meetings.gather(flight, events)) report_escape();
   }
-  if (built) impulses.find_shared(meetings.images());
-  if (any && !meetings.gather(flight, vertices, events)) report_escape();
   impulses.begin();
   do run(flight);
   while (impulses.exchange(events.impulses()));
   meetings.move(flight, events);
   finish(flight);
   meetings.allow_less();
+}
+
+// numbers of vertices are then others
+
+void SurfaceObstacle::build_grid(const SRDFlight &flight)
+{
+  if (!meetings.build_grid(flight)) return;
+  if (inverse_mask) inverse_mask->renumber(motion.here().masses());
+  if (motion.here().corners()) {
+    rule.corners = motion.here().corners();
+    rule.inverse_masses = &motion.inverse_masses();
+  }
+  events = CollisionEvents(rule);
+  impulses.find_partners();
 }
 
 void SurfaceObstacle::report_escape()
@@ -116,7 +128,7 @@ void SurfaceObstacle::run(const SRDFlight &flight)
       meetings.allow_more_for_points();
     else
       meetings.allow_more_for_vertices();
-    if (!meetings.gather(flight, motion.current(), events)) report_escape();
+    if (!meetings.gather(flight, events)) report_escape();
   }
 }
 
@@ -130,9 +142,7 @@ void SurfaceObstacle::finish(const SRDFlight &flight)
   for (int k = 0; k < 3; ++k) tally[HANDED + k] += events.impulse()[k];
 
   motion.pass(flight.dt);
-  int mine = !events.touched().empty(), any;
-  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) motion.apply(events.changes());
+  if (anywhere(!events.touched().empty(), world)) motion.apply(events.changes());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -146,7 +156,7 @@ bigint SurfaceObstacle::count_strays(const SRDSolvent &solvent) const
 
 bigint SurfaceObstacle::put_back(const SRDSolvent &solvent, bigint step)
 {
-  const auto here = rescue.put_back(solvent, contact(), step);
+  auto here = rescue.put_back(solvent, contact(), step);
   if (here.rescued > 0) meetings.solvent_changed();
   tally[CROSSINGS] += here.crossed;
   tally[RESCUES] += here.rescued;

@@ -58,7 +58,11 @@ class SurfaceObstacle : protected Pointers {
   /// From setup(): finds the region of each solvent atom.
   void setup(const class SRDSolvent &);
   /// From post_integrate(), after control points have moved for the time dt.
-  void begin_step(double dt) { motion.begin_step(dt); }
+  void begin_step(double dt)
+  {
+    regions.forget_places();
+    motion.begin_step(dt);
+  }
   /// Solvent moves, for the step or the next part of it.
   void stream(const SRDFlight &);
   /// Around a collision in cells between two parts of a step, if the surface does not slip: the
@@ -97,12 +101,14 @@ class SurfaceObstacle : protected Pointers {
 
  private:
   Settings settings;
+  Membrane_NS::CollisionEvents::Settings rule;
   Membrane_NS::CollisionEvents events;
   std::unique_ptr<Membrane_NS::InverseMask> inverse_mask;
   ImpulseExchange impulses;
   SurfaceInCells in_cells;
   SurfaceRescue rescue;
 
+  void build_grid(const SRDFlight &);
   void run(const SRDFlight &);
   void finish(const SRDFlight &);
   double contact() const;

@@ -61,7 +61,7 @@ void SurfaceRegions::grow(int nmax)
 
 void SurfaceRegions::locate()
 {
-  const auto &vertices = motion.places();
+  vertices = motion.places();
   const Eigen::Matrix3d to_fraction = motion.lattice().inverse();
   std::vector<Vector3d> points;
   points.reserve(vertices.size());
@@ -181,6 +181,12 @@ std::vector<SurfaceRegions::Crossing> SurfaceRegions::find_crossings(const SRDSo
   return crossings;
 }
 
+void SurfaceRegions::forget_places()
+{
+  std::vector<Membrane_NS::SurfaceVertex>().swap(vertices);
+  for (SurfaceSide &side : sides) side.forget_triangles();
+}
+
 /* ---------------------------------------------------------------------- */
 
 void SurfaceRegions::find_parities(const SRDSolvent &solvent, int *parity) const
@@ -222,5 +228,6 @@ std::array<double, 2> SurfaceRegions::volumes() const
 
 double SurfaceRegions::memory_usage() const
 {
-  return sizeof(int) * (double) atom->nmax;
+  return sizeof(int) * (double) atom->nmax +
+      sizeof(Membrane_NS::SurfaceVertex) * vertices.capacity();
 }

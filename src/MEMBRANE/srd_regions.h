@@ -63,7 +63,7 @@ class SurfaceRegions : protected Pointers {
   int *region;
   void grow(int nmax);
 
-  // === Check
+  // === Check. Both need the whole surface, for which all ranks send all of it to all.
 
   /// An atom that is not where it belongs.
   struct Crossing {
@@ -71,14 +71,20 @@ class SurfaceRegions : protected Pointers {
   };
   /// Collective: atoms of this rank whose positions contradict their regions.
   std::vector<Crossing> find_crossings(const class SRDSolvent &);
+  /// After that: the vertices of the surface.
+  const std::vector<Membrane_NS::SurfaceVertex> &places() const { return vertices; }
   /// After find_crossings(): whether a position is in a region.
   bool belongs(const double *x, imageint image, int region) const;
+
+  /// Frees the memory for where the surface was: until the next check no position is looked up.
+  void forget_places();
 
   double memory_usage() const;
 
  private:
   SurfaceMotion &motion;
   std::string user;
+  std::vector<Membrane_NS::SurfaceVertex> vertices;
   int num_surfaces;
   std::vector<int> surface_of;    // of a component: its place among those of the group
   std::vector<Membrane_NS::SurfaceSide> sides;    // by component

@@ -68,7 +68,7 @@ Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing,
                                       Vector3d &normal) const
 {
   const auto &surface = motion.surface().faces();
-  const auto &places = motion.current();
+  const auto &places = regions.places();
   const Eigen::Matrix3d box = motion.lattice(), to_fraction = box.inverse();
   const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
   Vector3d nearest = x;

@@ -142,6 +142,7 @@ void SRDSurface::make_triangles(const Topology &topology, const TriangleMesh &co
   const Matrix3d to_fraction = box_vectors(*domain).inverse();
   triangles = {};
   face_component.clear();
+  group_faces.clear();
 
   // a mass has its place with its control point, as in SurfaceMotion::load_positions()
 
@@ -165,6 +166,7 @@ void SRDSurface::make_triangles(const Topology &topology, const TriangleMesh &co
     const auto &face = topology.face(f);
     const int c = topology.component(face[0]);
     if (!in_group[c]) continue;
+    group_faces.push_back(f);
     for (int k = 0; k < 3; ++k) length += control.edge(face[k], face[(k + 1) % 3]).norm();
     num_edges += 3;
     Membrane_NS::stencil_points(topology, control, f, stencil);
@@ -193,14 +195,15 @@ void SRDSurface::make_triangles(const Topology &topology, const TriangleMesh &co
   mean_edge = length / std::max(1, num_edges);
 }
 
-void SRDSurface::place_corners(std::vector<SurfaceVertex> &vertices) const
+void SRDSurface::place_corners(const SurfaceCorners *corners,
+                               std::vector<SurfaceVertex> &vertices) const
 {
-  if (!finer) return;
+  if (!corners) return;
   const Matrix3d box = box_vectors(*domain);
-  for (size_t v = finer->num_masses(); v < vertices.size(); ++v) {
+  for (size_t v = corners->num_masses(); v < vertices.size(); ++v) {
     SurfaceVertex corner;
-    corner.path = {box * finer->shift(v), Vector3d::Zero()};
-    for (const auto &[a, g] : finer->masses_of(v)) {
+    corner.path = {box * corners->shift(v), Vector3d::Zero()};
+    for (const auto &[a, g] : corners->masses_of(v)) {
       const SurfaceVertex &one = vertices[a];
       corner.path.origin += g * one.path.origin;
       corner.path.velocity += g * one.path.velocity;
@@ -210,8 +213,17 @@ void SRDSurface::place_corners(std::vector<SurfaceVertex> &vertices) const
   }
 }
 
+void SRDSurface::add_triangles(int mesh_face, std::vector<int> &list) const
+{
+  const auto at = std::lower_bound(group_faces.begin(), group_faces.end(), mesh_face);
+  if (at == group_faces.end() || *at != mesh_face) return;
+  const int count = 1 << (2 * level), first = static_cast<int>(at - group_faces.begin()) * count;
+  for (int t = first; t < first + count; ++t) list.push_back(t);
+}
+
 double SRDSurface::memory_usage() const
 {
-  return sizeof(int) * 6.0 * offset.capacity() + (finer ? finer->memory_usage() : 0.0) +
+  return sizeof(int) * (6.0 * offset.capacity() + group_faces.capacity()) +
+      (finer ? finer->memory_usage() : 0.0) +
       triangles.faces.capacity() * (sizeof(Membrane_NS::Face) + 9 * sizeof(int));
 }

@@ -45,8 +45,13 @@ class SRDSurface : protected Pointers {
   int num_vertices() const { return finer ? finer->count() : num_masses; }
   /// Of level 1 and above; else null.
   const Membrane_NS::SurfaceCorners *corners() const { return finer.get(); }
-  /// Vertices that are means of masses, from these.
-  void place_corners(std::vector<Membrane_NS::SurfaceVertex> &) const;
+  /// Vertices that are means of masses, from these, by corners() or a part of them; if null, none
+  /// are.
+  void place_corners(const Membrane_NS::SurfaceCorners *,
+                     std::vector<Membrane_NS::SurfaceVertex> &) const;
+  /// Appends the triangles that a face of the mesh is, or is cut into; none if it is not of the
+  /// group.
+  void add_triangles(int mesh_face, std::vector<int> &) const;
 
   /// The component of the mesh that a face is part of; components without faces here belong to
   /// other groups.
@@ -76,6 +81,7 @@ class SRDSurface : protected Pointers {
   std::vector<Membrane_NS::Face> finer_faces;    // what it was made for
   Membrane_NS::SurfaceCorners::Seams finer_seams;
   std::vector<int> face_component, group_components;
+  std::vector<int> group_faces;    // of the mesh
   double mean_edge;
   std::vector<std::array<int, 3>> offset, ring_seam;
 

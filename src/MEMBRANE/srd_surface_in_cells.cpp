@@ -45,13 +45,13 @@ void SurfaceInCells::join(SRDCells &cells, bigint step, double kT)
   cells.others.clear();
   for (int i = 0; i < part.owned; ++i) {
     const tagint tag = atom->tag[part.atom_of(i)];
-    if (!motion.is_free(part.vertices[i])) {
+    if (!motion.is_free(i)) {
       double v[3];
       Membrane_NS::thermal_velocity(seed ^ HELD_SEED, step, tag, kT,
-                                    motion.mass_of(part.vertices[i]), v);
+                                    motion.mass_of(i), v);
       for (int k = 0; k < 3; ++k) joined[i].c[k] += v[k];
     }
-    cells.others.add(position[i].c, joined[i].c, motion.mass_of(part.vertices[i]), tag,
+    cells.others.add(position[i].c, joined[i].c, motion.mass_of(i), tag,
                      random.uniforms(tag, 0)[0] < 0.5);
   }
 }
@@ -63,7 +63,7 @@ void SurfaceInCells::leave(SRDCells &cells, double *momentum)
   for (int i = 0; i < part.owned; ++i)
     for (int k = 0; k < 3; ++k) {
       change[i].c[k] = cells.others.velocity[3 * i + k] - joined[i].c[k];
-      momentum[k] += motion.mass_of(part.vertices[i]) * change[i].c[k];
+      momentum[k] += motion.mass_of(i) * change[i].c[k];
     }
   motion.apply(change);
   cells.others.clear();

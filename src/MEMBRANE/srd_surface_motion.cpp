@@ -21,7 +21,9 @@
 #include "comm.h"
 #include "error.h"
 #include "group.h"
+#include "mesh_gather.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -41,10 +43,11 @@ static constexpr bigint MOST_DIRECT = 10000;
 
 /* ---------------------------------------------------------------------- */
 
-SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, std::string user) :
-    Pointers(lmp), user(std::move(user)), groupbit(group->bitmask[igroup]),
+SurfaceMotion::SurfaceMotion(LAMMPS *lmp, int igroup, int level, bool all_masses,
+                             std::string user) :
+    Pointers(lmp), user(std::move(user)), groupbit(group->bitmask[igroup]), all_masses(all_masses),
     local_mesh(lmp, this->user), points(lmp, igroup, this->user), movers(lmp, igroup, this->user),
-    shape(lmp, groupbit, level, this->user), any_fixed(false), step(0.0), time_left(0.0)
+    shape(lmp, groupbit, level, this->user), known_for(-1), any_fixed(false), step(0.0), time_left(0.0)
 {
 }
 
@@ -53,40 +56,36 @@ void SurfaceMotion::init()
   points.init();
   local_mesh.init();
   movers.init();
-  find_masses();
+  find_fixed();
 }
 
 void SurfaceMotion::setup()
 {
   follow_points();
   shape.setup(mesh());
-  vertices.assign(shape.num_vertices(), {{Vector3d::Zero(), Vector3d::Zero()}});
-  for (size_t v = 0; v < inverse_masses.size(); ++v) vertices[v].inverse_mass = inverse_masses[v];
+  known_for = -1;
   remember();
 }
 
-/* ----------------------------------------------------------------------
-   masses of all vertices, and which of them are free to move
-------------------------------------------------------------------------- */
+void SurfaceMotion::find_fixed()
+{
+  int mine = 0, any;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit && mesh().vertex(atom->tag[i]) >= 0 && !movers.moves(i)) mine = 1;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  any_fixed = any != 0;
+}
+
+// masses of owned vertices, and which of them are free to move
 
 void SurfaceMotion::find_masses()
 {
-  const int n = mesh().topology().num_vertices();
-  std::vector<double> here(2 * n, 0.0), sum(2 * n);
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh().vertex(atom->tag[i]);
-    if (v < 0 || !(atom->mask[i] & groupbit)) continue;
-    here[v] = atom->rmass[i];
-    if (movers.moves(i)) here[n + v] = 1.0;
-  }
-  MPI_Allreduce(here.data(), sum.data(), 2 * n, MPI_DOUBLE, MPI_SUM, world);
-  masses.assign(sum.begin(), sum.begin() + n);
-  any_fixed = false;
-  inverse_masses.resize(n);
-  for (int v = 0; v < n; ++v) {
-    const bool free = sum[n + v] > 0.0;
-    inverse_masses[v] = free ? 1.0 / masses[v] : 0.0;
-    any_fixed = any_fixed || (masses[v] > 0.0 && !free);
+  masses.clear();
+  inverse_masses_owned.clear();
+  for (int i = 0; i < part().owned; ++i) {
+    const int j = part().atom_of(i);
+    masses.push_back(atom->rmass[j]);
+    inverse_masses_owned.push_back(movers.moves(j) ? 1.0 / atom->rmass[j] : 0.0);
   }
 }
 
@@ -137,18 +136,7 @@ void SurfaceMotion::refresh()
   MeshPart &part = points.part();
   atom_vertex.assign(atom->nlocal, -1);
   for (int i = 0; i < part.owned; ++i) atom_vertex[part.atom_of(i)] = i;
-
-  int owned = part.owned;
-  counts.resize(comm->nprocs);
-  starts.assign(comm->nprocs + 1, 0);
-  MPI_Allgather(&owned, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int p = 0; p < comm->nprocs; ++p) starts[p + 1] = starts[p] + counts[p];
-  owned_by_all.resize(starts.back());
-  owner_of.assign(mesh().topology().num_vertices(), -1);
-  MPI_Allgatherv(part.vertices.data(), owned, MPI_INT, owned_by_all.data(), counts.data(),
-                 starts.data(), MPI_INT, world);
-  for (int p = 0; p < comm->nprocs; ++p)
-    for (int i = starts[p]; i < starts[p + 1]; ++i) owner_of[owned_by_all[i]] = p;
+  find_masses();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -197,7 +185,7 @@ void SurfaceMotion::load_displacements()
   const Vector3d corner = Vector3d::Map(domain->boxlo);
   if (any_fixed)
     for (int i = 0; i < part.owned; ++i) {
-      if (is_free(part.vertices[i])) continue;
+      if (is_free(i)) continue;
       Vector3d before = Vector3d::Map(remembered[i].c);
       if (movers.box_takes_atoms() &&
           box != remembered_box)    // fix deform has taken it along since
@@ -214,24 +202,6 @@ void SurfaceMotion::load_accelerations()
 {
   moved.assign(points.part().size(), Vector4{});
   movers.load_accelerations(atom_vertex, moved);
-}
-
-// all = the ranks' mine, `width` numbers a vertex, in the order of owned_by_all
-
-void SurfaceMotion::share(int width)
-{
-  all.resize(width * owned_by_all.size());
-  if (comm->nprocs == 1) {
-    all = mine;
-    return;
-  }
-  std::vector<int> n(comm->nprocs), first(comm->nprocs);
-  for (int p = 0; p < comm->nprocs; ++p) {
-    n[p] = width * counts[p];
-    first[p] = width * starts[p];
-  }
-  MPI_Allgatherv(mine.data(), n[comm->me], MPI_DOUBLE, all.data(), n.data(), first.data(),
-                 MPI_DOUBLE, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -252,7 +222,9 @@ void SurfaceMotion::begin_step(double dt)
   step = time_left = dt;
 }
 
-const std::vector<SurfaceVertex> &SurfaceMotion::paths()
+// === The surface, as far as it is here
+
+bool SurfaceMotion::find_paths()
 {
   load_positions();
   const int owned = part().owned;
@@ -263,29 +235,83 @@ const std::vector<SurfaceVertex> &SurfaceMotion::paths()
       mine[9 * i + 3 + k] = velocity[i].c[k];
       mine[9 * i + 6 + k] = acceleration[i].c[k];
     }
-  share(9);
-  for (size_t i = 0; i < owned_by_all.size(); ++i) {
-    SurfaceVertex &vertex = vertices[owned_by_all[i]];
-    vertex.path = {Vector3d::Map(&all[9 * i]), Vector3d::Map(&all[9 * i + 3])};
-    vertex.acceleration = Vector3d::Map(&all[9 * i + 6]);
-  }
-  shape.place_corners(vertices);
-  return vertices;
+  if (known_for != points.numbering()) return false;
+  spread_paths(*known, vertices);
+  return true;
 }
 
-const std::vector<SurfaceVertex> &SurfaceMotion::places()
+void SurfaceMotion::spread_paths(SRDSurfacePart &to, std::vector<SurfaceVertex> &places)
+{
+  to.spread(mine, 9, spread);
+  for (int a = 0; a < to.num_masses(); ++a) {
+    const double *values = &spread[9 * (size_t) a];
+    places[a].path = {Vector3d::Map(values), Vector3d::Map(values + 3)};
+    places[a].acceleration = Vector3d::Map(values + 6);
+  }
+  shape.place_corners(to.corners(), places);
+}
+
+std::unique_ptr<SRDSurfacePart> SurfaceMotion::make_part(std::vector<int> triangles)
+{
+  return std::make_unique<SRDSurfacePart>(lmp, shape, mesh().topology(), part(),
+                                          std::move(triangles), all_masses);
+}
+
+std::vector<int> SurfaceMotion::own_triangles()
+{
+  const auto &topology = mesh().topology();
+  std::vector<int> found;
+  for (int i = 0; i < part().owned; ++i) {
+    const int v = part().vertices[i];
+    for (int f : topology.faces_around(v))
+      if (topology.face(f)[0] == v) shape.add_triangles(f, found);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool SurfaceMotion::have_near(const Vector3d &lo, const Vector3d &hi)
+{
+  const bool new_owners = known_for != points.numbering();
+  if (comm->nprocs == 1 && !new_owners) return false;
+  if (new_owners) own = make_part(own_triangles());
+  if (comm->nprocs == 1)
+    known = std::move(own);
+  else {
+    std::vector<SurfaceVertex> places(own->num_vertices());
+    spread_paths(*own, places);
+    std::vector<int> near = own->find_in(lo, hi, lattice_now(), places);
+    int differs = new_owners || near != known->whole_faces(), any;
+    MPI_Allreduce(&differs, &any, 1, MPI_INT, MPI_MAX, world);
+    if (!any) return false;
+    known = make_part(std::move(near));
+    known->find_sharers();
+  }
+  known_for = points.numbering();
+  known->spread(inverse_masses_owned, 1, inverse_masses_here);
+  vertices.assign(known->num_vertices(), {});
+  for (int a = 0; a < known->num_masses(); ++a) vertices[a].inverse_mass = inverse_masses_here[a];
+  spread_paths(*known, vertices);
+  return true;
+}
+
+std::vector<SurfaceVertex> SurfaceMotion::places()
 {
   refresh();
   load_positions();
-  MeshPart &part = points.part();
-  mine.resize(3 * part.owned);
-  for (int i = 0; i < part.owned; ++i)
-    for (int k = 0; k < 3; ++k) mine[3 * i + k] = r[i].c[k];
-  share(3);
-  for (size_t i = 0; i < owned_by_all.size(); ++i)
-    vertices[owned_by_all[i]].path = {Vector3d::Map(&all[3 * i]), Vector3d::Zero()};
-  shape.place_corners(vertices);
-  return vertices;
+  struct Place {
+    int vertex;
+    double x[3];
+  };
+  std::vector<Place> owned;
+  for (int i = 0; i < part().owned; ++i)
+    owned.push_back({part().vertices[i], {r[i].c[0], r[i].c[1], r[i].c[2]}});
+  std::vector<SurfaceVertex> all(shape.num_vertices(),
+                                 {{Vector3d::Zero(), Vector3d::Zero()}});
+  for (const Place &place : gather_all(owned, world))
+    all[place.vertex].path.origin = Vector3d::Map(place.x);
+  shape.place_corners(shape.corners(), all);
+  return all;
 }
 
 void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
@@ -299,7 +325,7 @@ void SurfaceMotion::masses_now(VertexField &position, VertexField &velocity_now)
   part().load(atom->v, moved);
   velocity_now.resize(part().size());
   for (int i = 0; i < part().owned; ++i)    // whatever velocities the atoms have that nothing moves
-    if (!is_free(part().vertices[i])) moved[i] = drift[i];
+    if (!is_free(i)) moved[i] = drift[i];
   mask->apply(moved, velocity_now);
 }
 
@@ -313,7 +339,7 @@ void SurfaceMotion::apply(const VertexField &change)
   q = change;
   q.resize(part().size());
   for (int i = 0; i < part().owned; ++i)
-    if (!is_free(part().vertices[i])) q[i] = {};
+    if (!is_free(i)) q[i] = {};
   mask->solve(q, r);
   change_velocities();
 }
@@ -323,14 +349,14 @@ void SurfaceMotion::apply(const std::vector<SurfaceChange> &changes)
   q.resize(part().size());
   moved.resize(part().size());
   for (int i = 0; i < part().owned; ++i) {
-    const SurfaceChange &change = changes[part().vertices[i]];
+    const SurfaceChange &change = changes[known->place(i)];
     q[i] = {{change.velocity[0], change.velocity[1], change.velocity[2], 0.0}};
     moved[i] = {{change.position[0], change.position[1], change.position[2], 0.0}};
   }
   mask->solve(q, moved, r, detour);
   change_velocities();
   for (int i = 0; i < part().owned; ++i)
-    if (is_free(part().vertices[i]))
+    if (is_free(i))
       for (int k = 0; k < 3; ++k) atom->x[part().atom_of(i)][k] += detour[i].c[k];
 }
 
@@ -339,7 +365,7 @@ void SurfaceMotion::apply(const std::vector<SurfaceChange> &changes)
 void SurfaceMotion::change_velocities()
 {
   for (int i = 0; i < part().owned; ++i) {
-    if (!is_free(part().vertices[i])) continue;
+    if (!is_free(i)) continue;
     const int j = part().atom_of(i);
     for (int k = 0; k < 3; ++k) {
       atom->v[j][k] += r[i].c[k];
@@ -352,9 +378,10 @@ void SurfaceMotion::change_velocities()
 double SurfaceMotion::memory_usage() const
 {
   return (mask ? mask->memory_usage() : 0.0) + shape.memory_usage() +
+      (own ? own->memory_usage() : 0.0) + (known ? known->memory_usage() : 0.0) +
       sizeof(SurfaceVertex) * vertices.capacity() +
-      sizeof(double) * (mine.capacity() + all.capacity() + masses.capacity()) +
-      sizeof(int) * (owned_by_all.capacity() + owner_of.capacity() + atom_vertex.capacity()) +
+      sizeof(double) * (mine.capacity() + spread.capacity() + 2 * masses.capacity()) +
+      sizeof(int) * atom_vertex.capacity() +
       sizeof(Vector4) *
       (q.capacity() + moved.capacity() + r.capacity() + detour.capacity() + velocity.capacity() +
        drift.capacity() + acceleration.capacity());

@@ -21,6 +21,7 @@
 #include "mesh_local.h"
 #include "srd_surface.h"
 #include "srd_surface_movers.h"
+#include "srd_surface_part.h"
 
 #include <array>
 #include <memory>
@@ -30,16 +31,16 @@
 namespace LAMMPS_NS {
 
 /** The limit positions of the control points of a group of membranes as moving point masses: where
-    they, and the surface that they span, are and go in a step, for all ranks, and what impulses on
-    them do to the control points.
+    they, and the surface that they span, are and go in a step, and what impulses on them do to the
+    control points.
 
-    Masses are those of the whole mesh; the vertices of the surface are these, and after them the
-    corners of a finer one. Positions are unwrapped and, component by component, in one piece, as
-    DistributedMesh::unwrapped() has them. Vertices of other groups stay unset. */
+    Each rank knows of the surface what comes near its solvent, see SRDSurfacePart. Positions are
+    unwrapped and, component by component, in one piece, as DistributedMesh::unwrapped() has them. */
 class SurfaceMotion : protected Pointers {
  public:
-  /// `level` is that of SRDSurface; `user` is named in errors.
-  SurfaceMotion(class LAMMPS *, int igroup, int level, std::string user);
+  /// `level` is that of SRDSurface; all_masses: each rank knows all masses; `user` is named in
+  /// errors.
+  SurfaceMotion(class LAMMPS *, int igroup, int level, bool all_masses, std::string user);
 
   // === Life cycle
 
@@ -70,61 +71,72 @@ class SurfaceMotion : protected Pointers {
   Eigen::Matrix3d lattice_now() const { return lattice() + (step - time_left) * lattice_rate(); }
   /// When from now the middle of the step is.
   double middle() const { return time_left - 0.5 * step; }
-  /// Collective: paths of all vertices from now on, and accelerations.
-  const std::vector<Membrane_NS::SurfaceVertex> &paths();
-  /// Collective: vertices at rest where they are at the end of the step.
-  const std::vector<Membrane_NS::SurfaceVertex> &places();
-  /// What the last of these two returned.
-  const std::vector<Membrane_NS::SurfaceVertex> &current() const { return vertices; }
-  /// The rank that owns a mass, as of the last paths() or places().
-  int owner(int vertex) const { return owner_of[vertex]; }
+  /** Collective: paths from now on of the vertices that this rank has, and accelerations. False if
+      vertices have new owners, and have_near() is due: the same on all ranks. */
+  bool find_paths();
+  /** Collective, after find_paths(): this rank has of the surface what comes into the region between
+      lo and hi at the start of the paths. False if it and all others have that already. */
+  bool have_near(const Eigen::Vector3d &lo, const Eigen::Vector3d &hi);
+  SRDSurfacePart &here() { return *known; }
+  const SRDSurfacePart &here() const { return *known; }
+  /// Vertices of here().
+  const std::vector<Membrane_NS::SurfaceVertex> &paths() const { return vertices; }
+  /// Inverse masses of its masses.
+  const std::vector<double> &inverse_masses() const { return inverse_masses_here; }
+  /// Collective: all vertices of the surface, at rest where they are at the end of the step.
+  std::vector<Membrane_NS::SurfaceVertex> places();
   /// Collective: limit positions and velocities of the owned vertices, in the order of part().
   void masses_now(Membrane_NS::VertexField &position, Membrane_NS::VertexField &velocity);
   /// Collective: changes of the masses' velocities now, in the order of part(), reach the control
   /// points.
   void apply(const Membrane_NS::VertexField &change);
-  /// Collective: changes of velocity and position now of the owned vertices, by vertex, do.
+  /// Collective: changes of velocity and position now of the owned masses among those of here() do.
   void apply(const std::vector<Membrane_NS::SurfaceChange> &changes);
 
-  /// Owned vertices in the order of their atoms.
+  /// The owned vertices.
   MeshPart &part() { return points.part(); }
-  double mass_of(int mass) const { return masses[mass]; }
-  const std::vector<double> &all_inverse_masses() const { return inverse_masses; }
-  bool is_free(int mass) const { return inverse_masses[mass] > 0.0; }
+  double mass_of(int owned) const { return masses[owned]; }
+  bool is_free(int owned) const { return inverse_masses_owned[owned] > 0.0; }
   double memory_usage() const;
 
  private:
   std::string user;
   int groupbit;
+  bool all_masses;
   LocalMesh local_mesh;
   MeshGroup points;
   std::unique_ptr<Membrane_NS::LimitMask> mask;
   SurfaceMovers movers;
   SRDSurface shape;
+  std::vector<double> masses, inverse_masses_owned;    // of owned vertices
+  // the triangles whose faces start with an owned vertex, and those near the solvent
+  std::unique_ptr<SRDSurfacePart> own, known;
+  bigint known_for;    // which numbers of the part
   std::vector<Membrane_NS::SurfaceVertex> vertices;
-  std::vector<double> masses, inverse_masses;
-  std::vector<int> owner_of;
+  std::vector<double> inverse_masses_here;
 
   bool any_fixed;                         // some vertices do not yield to impulses
   Membrane_NS::VertexField remembered;    // if so: x of the last step, and the box then
   Eigen::Matrix3d remembered_box;
   Eigen::Vector3d remembered_corner;
-  std::vector<int> atom_vertex;                     // place in part() of local atoms, or -1
-  std::vector<int> counts, starts, owned_by_all;    // vertices, rank by rank
-  std::vector<double> mine, all;
+  std::vector<int> atom_vertex;         // place in part() of local atoms, or -1
+  std::vector<double> mine, spread;     // paths of owned masses, and of those that are here
   double step, time_left;               // its duration, and what is left of it
   Membrane_NS::VertexField drift;       // velocities of owned control points in it
   Membrane_NS::VertexField velocity;    // of owned masses for the rest of it
   Membrane_NS::VertexField acceleration;
   Membrane_NS::VertexField q, moved, r, detour;
 
+  void find_fixed();
   void find_masses();
   void follow_points();
   void refresh();
   void load_positions();
   void load_displacements();
   void load_accelerations();
-  void share(int width);
+  void spread_paths(SRDSurfacePart &, std::vector<Membrane_NS::SurfaceVertex> &);
+  std::vector<int> own_triangles();
+  std::unique_ptr<SRDSurfacePart> make_part(std::vector<int> triangles);
   void check_frames();
   void change_velocities();
 };

@@ -191,7 +191,8 @@ struct Gas {
       lo = lo.cwiseMin(p.origin - room);
       hi = hi.cwiseMax(p.origin + room);
     }
-    grid.build(surface, vertices, mesh.lattice, mesh.periodic, lo, hi, settings);
+    grid.cut(lo, hi, settings);
+    grid.build(surface, vertices, mesh.lattice, mesh.periodic);
   }
 
   // one step; `wrap` brings points back into the box as LAMMPS does now and then
@@ -812,9 +813,10 @@ struct Sheet {
         v.path.origin[2] = height(step);
         v.path.velocity[2] = (height(step + 1) - height(step)) / DT;
       }
-      if (!grid.is_built())    // cubes from z = -1.995 on, of 0.2
-        grid.build(surface, vertices, lattice, {false, false, false}, Vector3d(-2, -2, -1.995),
-                   Vector3d(2, 2, 2), {0.1, 0.1, 0.2});
+      if (!grid.is_built()) {    // cubes from z = -1.995 on, of 0.2
+        grid.cut(Vector3d(-2, -2, -1.995), Vector3d(2, 2, 2), {0.1, 0.1, 0.2});
+        grid.build(surface, vertices, lattice, {false, false, false});
+      }
       ASSERT_TRUE(grid.is_valid_for(vertices, lattice));
       grid.begin(vertices, DT, 1.0e-6);
       if (!list.is_valid_for(grid, vertices, DT)) {

@@ -161,6 +161,35 @@ for ranks in RANKS:
         again = [float(line.split()[1]) for line in output.splitlines() if line.startswith("v ")]
         claim("   ... the same after a restart", code == 0 and again == [second], (again, second))
 
+# === Atoms that go from one rank alone, of two that have no ghosts
+
+LOST = """
+units           lj
+atom_style      membrane_cp
+region          box block -20 20 -20 20 -20 20
+create_box      2 box angle/types 1
+create_membrane 1 sphere 2 2.5 center -10 0 0 mass 5
+create_atoms    2 single -16 0 0
+create_atoms    2 single 10 0 0
+set             type 2 mass 1.0
+group           membrane type 1
+fix             i membrane hd/nve
+velocity        membrane create 1.0 87287 loop geom
+""" + FORCES + """
+compute         t membrane hd/temp
+run             0
+region          right block 5 15 INF INF INF INF
+group           right region right
+delete_atoms    group right
+print           "t $(c_t[1]:%.15g)"
+"""
+values = []
+for ranks in RANKS:
+    code, output = lammps(LOST, ranks=ranks)
+    values += [float(line.split()[1]) for line in output.splitlines() if line.startswith("t ")]
+claim("compute hd/temp, asked when one rank has lost an atom and another none, is the same on all numbers of ranks",
+      len(values) == len(RANKS) and max(values) - min(values) < 1e-12 * max(values), values)
+
 # === Solvent
 
 SOLVENT = """
