@@ -36,7 +36,7 @@ static constexpr int RESTART_MARK = 0x48464d31;
 
 /* ---------------------------------------------------------------------- */
 
-PairHelfrich::PairHelfrich(LAMMPS *lmp) : Pair(lmp), model(lmp), foreign_integrators(lmp)
+PairHelfrich::PairHelfrich(LAMMPS *lmp) : Pair(lmp), model(lmp), foreign_integrators(lmp), gaps(lmp)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -129,6 +129,11 @@ double PairHelfrich::init_one(int i, int j)
 {
   const bool both = model.has_coefficients(i) && model.has_coefficients(j);
   return both ? model.mesh().longest_edge() : 0.0;
+}
+
+void PairHelfrich::setup()
+{
+  gaps.warn(model.mesh());
 }
 
 void PairHelfrich::finish()
