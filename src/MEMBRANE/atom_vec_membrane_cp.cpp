@@ -19,6 +19,8 @@
 
 #include "atom.h"
 #include "error.h"
+#include "force.h"
+#include "mesh_angle_style.h"
 
 #include <cmath>
 #include <cstring>
@@ -55,11 +57,22 @@ AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
 
 void AtomVecMembraneCP::process_args(int narg, char **arg)
 {
+  set_angle_style_of_faces(lmp);
   if (narg == 0) return;
   if (narg != 2 || strcmp(arg[0], "faces") != 0)
     error->all(FLERR, "Unknown atom_style membrane_cp argument {}; the only one is: faces TYPES",
                arg[0]);
   surface->set_face_types(arg[1]);
+}
+
+/* ----------------------------------------------------------------------
+   follows Force::init(), where pair helfrich sets the angle style each time
+------------------------------------------------------------------------- */
+
+void AtomVecMembraneCP::init()
+{
+  AtomVecAngle::init();
+  if (force->pair_match("helfrich", 1)) unset_angle_style_of_faces(lmp);
 }
 
 void AtomVecMembraneCP::grow_pointers()

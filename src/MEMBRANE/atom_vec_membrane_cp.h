@@ -31,6 +31,7 @@ class AtomVecMembraneCP : public AtomVecAngle, public MeshOwner {
   AtomVecMembraneCP(class LAMMPS *);
 
   void process_args(int, char **) override;
+  void init() override;
   void grow_pointers() override;
   void create_atom_post(int) override;
   void data_atom_post(int) override;

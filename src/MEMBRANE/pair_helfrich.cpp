@@ -22,6 +22,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "mesh_angle_style.h"
 #include "update.h"
 
 #include <algorithm>
@@ -116,6 +117,7 @@ void PairHelfrich::coeff(int narg, char **arg)
 
 void PairHelfrich::init_style()
 {
+  set_angle_style_of_faces(lmp);
   model.init();
   if (update->whichflag == 1) foreign_integrators.warn(model.mesh());
 }
