@@ -7,10 +7,12 @@ command is a line below; what single styles do about it is in test_between_runs.
 import os
 
 from lammps_claims import MPIEXEC, claim, finish, lammps, thermo
+from membrane_scenes import bipyramid, write_off
 
 RANKS = (1, 2) if MPIEXEC else (1,)
+write_off("irregular.off", *bipyramid(9))
 
-# three vesicles, one for each integrator; solvent meets the first two
+# three vesicles, one for each integrator, of meshes with few regular faces; solvent meets the first two
 ATOMS = """
 units           lj
 atom_style      membrane_cp
@@ -18,7 +20,7 @@ region          box block -4.5 4.5 -3 3 -3 3
 create_box      2 box angle/types 1
 create_membrane 1 sphere 1 1.2 center -3.0 0 0 mass 20
 create_membrane 1 sphere 1 1.2 center  0.0 0 0 mass 20
-create_membrane 1 sphere 1 1.2 center  3.0 0 0 mass 20
+create_membrane 1 file irregular.off refine 1 center 3.0 0 0 mass 20
 create_solvent  2 both 3.0 4711 mass 1.0
 group           solvent type 2
 group           nve molecule 1
@@ -175,5 +177,15 @@ for ranks in RANKS:
     if claim(f"clear, processors on {ranks}: all styles go on", code == 0, error_line(output) if code else ""):
         error, what = difference(*map(thermo, output.split("\n=== ")[1:]))
         claim("   ... as they did before", error < 1e-11, f"{error:.1e} {what}")
+
+# === A restart file on another number of ranks: references and noise are those of before
+
+for ranks in RANKS[1:]:
+    for wrote, reads in ((1, ranks), (ranks, 1)):
+        _, output = lammps(start("a", "slip") + RUN + "write_restart m.restart\nprint '=== on'\n" + RUN, ranks=wrote)
+        code, again = lammps(start("b", "slip", "read_restart m.restart\n") + RUN, ranks=reads)
+        if claim(f"restart file of {wrote}, on {reads}: all styles go on", code == 0, error_line(again) if code else ""):
+            error, what = difference(thermo(output.split("\n=== ")[-1]), thermo(again))
+            claim("   ... as they did before", error < 1e-11, f"{error:.1e} {what}")
 
 finish()
