@@ -48,6 +48,10 @@ AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
     fields->emplace_back("membrane_origin");
   fields_data_atom = {"id", "molecule", "type", "rmass", "x"};
 
+  // the base class has done it for its own fields, and LAMMPS before 2026 forgets these flags
+
+  delete[] threads;
+  threads = nullptr;
   setup_fields();
 }
 
