@@ -24,13 +24,26 @@
 
 #include <cmath>
 #include <cstring>
+#include <deque>
 
 using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   LAMMPS knows a per-atom array by the address of the pointer to it, and atom style hybrid frees arrays
+   after the sub-styles that these pointers would be in: they stay until the program ends
+------------------------------------------------------------------------- */
+
+static bigint *&lasting_pointer()
+{
+  static auto &all = *new std::deque<bigint *>;
+  all.push_back(nullptr);
+  return all.back();
+}
 
 /* ---------------------------------------------------------------------- */
 
 AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(nullptr),
+    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(lasting_pointer()),
     surface(std::make_shared<DistributedMesh>(lmp))
 {
   mass_type = PER_ATOM;

@@ -40,7 +40,7 @@ class AtomVecMembraneCP : public AtomVecAngle, public MeshOwner {
 
  private:
   double *rmass;
-  bigint *origin;
+  bigint *&origin;
   std::shared_ptr<DistributedMesh> surface;
 };
 
