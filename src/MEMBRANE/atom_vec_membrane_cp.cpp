@@ -19,16 +19,31 @@
 
 #include "atom.h"
 #include "error.h"
+#include "force.h"
+#include "mesh_angle_style.h"
 
 #include <cmath>
 #include <cstring>
+#include <deque>
 
 using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   LAMMPS knows a per-atom array by the address of the pointer to it, and atom style hybrid frees arrays
+   after the sub-styles that these pointers would be in: they stay until the program ends
+------------------------------------------------------------------------- */
+
+static bigint *&lasting_pointer()
+{
+  static auto &all = *new std::deque<bigint *>;
+  all.push_back(nullptr);
+  return all.back();
+}
 
 /* ---------------------------------------------------------------------- */
 
 AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(nullptr),
+    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(lasting_pointer()),
     surface(std::make_shared<DistributedMesh>(lmp))
 {
   mass_type = PER_ATOM;
@@ -46,6 +61,10 @@ AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
     fields->emplace_back("membrane_origin");
   fields_data_atom = {"id", "molecule", "type", "rmass", "x"};
 
+  // the base class has done it for its own fields, and LAMMPS before 2026 forgets these flags
+
+  delete[] threads;
+  threads = nullptr;
   setup_fields();
 }
 
@@ -55,11 +74,22 @@ AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
 
 void AtomVecMembraneCP::process_args(int narg, char **arg)
 {
+  set_angle_style_of_faces(lmp);
   if (narg == 0) return;
   if (narg != 2 || strcmp(arg[0], "faces") != 0)
     error->all(FLERR, "Unknown atom_style membrane_cp argument {}; the only one is: faces TYPES",
                arg[0]);
   surface->set_face_types(arg[1]);
+}
+
+/* ----------------------------------------------------------------------
+   follows Force::init(), where pair helfrich sets the angle style each time
+------------------------------------------------------------------------- */
+
+void AtomVecMembraneCP::init()
+{
+  AtomVecAngle::init();
+  if (force->pair_match("helfrich", 1)) unset_angle_style_of_faces(lmp);
 }
 
 void AtomVecMembraneCP::grow_pointers()

@@ -31,6 +31,7 @@ class AtomVecMembraneCP : public AtomVecAngle, public MeshOwner {
   AtomVecMembraneCP(class LAMMPS *);
 
   void process_args(int, char **) override;
+  void init() override;
   void grow_pointers() override;
   void create_atom_post(int) override;
   void data_atom_post(int) override;
@@ -39,7 +40,7 @@ class AtomVecMembraneCP : public AtomVecAngle, public MeshOwner {
 
  private:
   double *rmass;
-  bigint *origin;
+  bigint *&origin;
   std::shared_ptr<DistributedMesh> surface;
 };
 

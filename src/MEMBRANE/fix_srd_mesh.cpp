@@ -61,9 +61,9 @@ FixSRDMesh::FixSRDMesh(LAMMPS *lmp, int narg, char **arg) :
 
   nevery = given.every;
   streaming.walls = given.walls;
-
   if (domain->dimension != 3) error->all(FLERR, "Fix srd/mesh needs dimension 3");
   if (membrane < 0) return;
+  create_attribute = 1;
   mass = std::make_unique<HDMass>(lmp, membrane, "Fix srd/mesh");
   SurfaceObstacle::Settings settings;
   settings.membranes = membrane;

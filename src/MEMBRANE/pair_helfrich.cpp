@@ -22,6 +22,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "mesh_angle_style.h"
 #include "update.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ static constexpr int RESTART_MARK = 0x48464d31;
 
 /* ---------------------------------------------------------------------- */
 
-PairHelfrich::PairHelfrich(LAMMPS *lmp) : Pair(lmp), model(lmp), foreign_integrators(lmp)
+PairHelfrich::PairHelfrich(LAMMPS *lmp) : Pair(lmp), model(lmp), foreign_integrators(lmp), gaps(lmp)
 {
   single_enable = 0;
   restartinfo = 1;
@@ -116,6 +117,7 @@ void PairHelfrich::coeff(int narg, char **arg)
 
 void PairHelfrich::init_style()
 {
+  set_angle_style_of_faces(lmp);
   model.init();
   if (update->whichflag == 1) foreign_integrators.warn(model.mesh());
 }
@@ -129,6 +131,11 @@ double PairHelfrich::init_one(int i, int j)
 {
   const bool both = model.has_coefficients(i) && model.has_coefficients(j);
   return both ? model.mesh().longest_edge() : 0.0;
+}
+
+void PairHelfrich::setup()
+{
+  gaps.warn(model.mesh());
 }
 
 void PairHelfrich::finish()

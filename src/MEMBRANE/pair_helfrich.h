@@ -22,6 +22,7 @@ PairStyle(helfrich,PairHelfrich);
 
 #include "hd_foreign_integrators.h"
 #include "helfrich_model.h"
+#include "mesh_gaps.h"
 #include "pair.h"
 
 #include <string>
@@ -40,6 +41,7 @@ class PairHelfrich : public Pair {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
+  void setup() override;
   void finish() override;
   double init_one(int, int) override;
 
@@ -57,6 +59,7 @@ class PairHelfrich : public Pair {
  private:
   HelfrichModel model;
   HDForeignIntegrators foreign_integrators;
+  MeshGaps gaps;
   std::vector<double> moduli;    // kc by type, for extract()
 
   void allocate();

@@ -43,7 +43,10 @@ static std::vector<char> types_with_pairs(const LAMMPS *lmp)
 
 static bool exists(const void *style, const char *name)
 {
-  return style && name && strcmp(name, "zero") != 0 && strcmp(name, "none") != 0;
+  if (!style || !name) return false;
+  for (const char *without_force : {"none", "zero", "membrane"})
+    if (strcmp(name, without_force) == 0) return false;
+  return true;
 }
 
 // special neighbors know a bond on both sides; three- and four-body terms without bonds, on one

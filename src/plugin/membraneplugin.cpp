@@ -103,6 +103,13 @@ void add_loadable_styles(Loader &loader)
 #undef PairStyle
 #undef PAIR_CLASS
 
+#define ANGLE_CLASS
+#define AngleStyle(key, Class) \
+  loader.add("angle", #key, "MEMBRANE angle style " #key, &create_untyped<Angle, Class>)
+#include "membrane_styles.h"
+#undef AngleStyle
+#undef ANGLE_CLASS
+
 #define COMMAND_CLASS
 #define CommandStyle(key, Class) \
   loader.add("command", #key, "MEMBRANE command " #key, &create_untyped<Command, Class>)

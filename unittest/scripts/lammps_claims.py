@@ -9,6 +9,7 @@
 Each claim is printed on a line of its own; finish() ends the test, failed if a claim was.
 """
 
+import glob
 import os
 import re
 import subprocess
@@ -22,8 +23,12 @@ MPIEXEC = os.environ["MPIEXEC"]
 REFERENCE = os.environ["REFERENCE"]
 EXAMPLES = os.environ["EXAMPLES"]
 LONG = bool(os.environ.get("MEMBRANE_LONG"))    # many more samples, for ./quickstart test long
+SLOWNESS = int(os.environ.get("MEMBRANE_SLOWNESS", 1))    # of an lmp with sanitizers, see ../CMakeLists.txt
+REPORTS = "**/sanitizer.*"                      # what these found
 
 _made = _failed = 0
+for _report in glob.glob(REPORTS, recursive=True):
+    os.remove(_report)
 
 
 def claim(text, holds, measured=""):
@@ -38,6 +43,9 @@ def claim(text, holds, measured=""):
 def finish():
     if not _made:
         print("FAILED no claim was made")
+    for report in glob.glob(REPORTS, recursive=True):
+        with open(report, errors="replace") as file:
+            claim("the sanitizers find nothing", False, file.read())
     sys.exit(0 if _made and not _failed else 1)
 
 
@@ -63,7 +71,7 @@ def start(command, timeout, env=None):
     # Open MPI removes its folder below /tmp at the end if it is empty, while another run may be about to use it
     with tempfile.TemporaryDirectory(prefix="ompi") as folder:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, timeout=timeout,
+                              stderr=subprocess.STDOUT, text=True, timeout=SLOWNESS * timeout,
                               env={**os.environ, "OMPI_MCA_orte_tmpdir_base": folder, **(env or {})})
     return done.returncode, done.stdout
 

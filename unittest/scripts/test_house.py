@@ -13,7 +13,7 @@ MOST_LINES = 500
 # CONTRIBUTING.md: beginnings of names by storey and family
 FAMILIES = (
     "membrane_",                                                                     # ground floor
-    "atom_vec_membrane_cp", "mesh_", "create_membrane", "write_membrane",            # mesh
+    "atom_vec_membrane_cp", "angle_membrane", "mesh_", "create_membrane", "write_membrane",    # mesh
     "compute_membrane_", "pair_helfrich", "helfrich_", "restart_archive",            # surface, energy
     "hd_", "fix_hd_", "compute_hd_", "min_membrane",                                 # motion, minimization
     "srd_", "fix_srd_mesh", "create_solvent",                                        # solvent

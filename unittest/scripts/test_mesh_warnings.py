@@ -1,5 +1,5 @@
 """Warnings about the mesh while it moves: a vesicle that crumples goes on for a while, stretched or coarse
-meshes are left alone. fix nve on control points is warned of."""
+meshes are left alone. fix nve on control points is warned of, and so are pair styles that atoms get through."""
 
 from lammps_claims import claim, error_of, finish, run, thermo
 from membrane_scenes import TETRAHEDRON, bipyramid, write_off
@@ -117,5 +117,61 @@ for ranks in (1, 2):
           len(said) == 3 and "Membrane 1 spans 1.5 of the periodic box in x" in said[0], said[:1])
 for shape in ("sphere 3 1.9", "plane 8 8", "cylinder 16 16 1.5 z"):
     claim(f"{shape}: no such warning", "overlaps" not in run(WIDE.format(shape=shape)))
+
+# === Pair styles with other atoms whose range is shorter than an edge
+
+GAPS = """
+units           lj
+atom_style      membrane_cp
+boundary        p p p
+region          box block -12 12 -12 12 -12 12
+create_box      3 box angle/types 1
+create_membrane 1 sphere 2 5.0
+create_atoms    2 single 0 0 0
+group           others type 2
+pair_style      {style}
+pair_coeff      1 1 helfrich 20.0 0.0
+pair_coeff      2 2 lj/cut 1.0 0.6
+pair_coeff      * 3 none
+pair_coeff      3 3 zero
+{coeff}
+{more}
+run             0
+run             0
+"""
+OVERLAY = "hybrid/overlay helfrich lj/cut 0.7 zero 1.0"
+
+
+def gaps(coeff, style=OVERLAY, more="", ranks=1):
+    output = run(GAPS.format(style=style, coeff=coeff, more=more), ranks=ranks)
+    return [line for line in output.split("\n") if "get through the surface" in line]
+
+
+for ranks in (1, 2):
+    said = gaps("pair_coeff 1 2 lj/cut 1.0 0.6", ranks=ranks)
+    claim(f"{ranks} rank(s): a range shorter than an edge is warned of, once",
+          len(said) == 1 and "Pair style lj/cut acts between control points of type 1 and atoms of type 2 up to a "
+          "distance of 0.7, and edges of the mesh are 1.497 long on average" in said[0] and "up to 1.625:" in said[0], said)
+for name, count, scene in (
+        ("a range of an edge", 0, {"coeff": "pair_coeff 1 2 lj/cut 1.0 0.6 1.63"}),
+        ("no pair style between the two", 0, {"coeff": "pair_coeff 1 2 none"}),
+        ("one without force", 0, {"coeff": "pair_coeff 1 2 zero"}),
+        ("no atom of the type", 0, {"coeff": "pair_coeff 1 2 none\npair_coeff 1 3 lj/cut 1.0 0.6"}),
+        ("solvent of fix srd/mesh", 0,
+         {"coeff": "pair_coeff 1 2 lj/cut 1.0 0.6", "more": "fix s others srd/mesh 10 NULL 1.0 1.0 4711 shift yes 9127"}),
+        ("of two the longer range counts", 0,
+         {"style": OVERLAY + " soft 2.0", "coeff": "pair_coeff 1 2 lj/cut 1.0 0.6\npair_coeff 1 2 soft 1.0"}),
+        ("both are named", 1,
+         {"style": OVERLAY + " soft 1.5", "coeff": "pair_coeff 1 2 lj/cut 1.0 0.6\npair_coeff 1 2 soft 1.0"})):
+    said = gaps(**scene)
+    claim(f"{name}: {'a' if count else 'no'} warning", len(said) == count and
+          all("lj/cut and soft" in line and "1.5," in line for line in said), said)
+said = gaps("pair_coeff 1 2 lj/cut 1.0 0.6", more="change_box all x final -2.6 2.6 y final -2.6 2.6 z final -2.6 2.6 "
+            "remap units box")
+claim("lengths are those of the run", len(said) == 0, said)
+SHEET = GAPS.replace("sphere 2 5.0", "plane 24 24").replace("single 0 0 0", "single 0 0 5")
+said = [line for line in run(SHEET.format(style=OVERLAY, coeff="pair_coeff 1 2 lj/cut 1.0 0.6", more="")).split("\n")
+        if "get through" in line]
+claim("edges of a sheet are those of its mesh also across the box", len(said) == 1 and "up to 1.118:" in said[0], said)
 
 finish()
