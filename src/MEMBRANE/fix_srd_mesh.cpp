@@ -124,16 +124,13 @@ void FixSRDMesh::init_membranes()
   mass->init();
   obstacle->init();
   if (stiffness > 0.0 && comm->me == 0)
-    utils::logmesg(
-        lmp,
-        "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff "
-        "has none\n",
-        stiffness, STIFF_MESH);
+    utils::logmesg(lmp,
+                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where "
+                   "pair_coeff has none\n", stiffness, STIFF_MESH);
 }
 
 /* ----------------------------------------------------------------------
-   impulses shake control points along the fluid membrane, too, where nothing holds them: within a
-   few hundred steps faces would turn over
+   impulses shake control points along the membrane, too: within a few hundred steps faces would turn over
 ------------------------------------------------------------------------- */
 
 void *FixSRDMesh::extract(const char *name, int &dim)

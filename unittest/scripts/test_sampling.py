@@ -17,7 +17,7 @@ compute         e all pair helfrich
 compute         T all hd/temp
 compute_modify  T extra/dof 0
 thermo_style    custom step pe ke etotal econserve c_e[1] c_e[7] c_e[10] c_T
-thermo_modify   norm no format float %.15g
+thermo_modify   norm no temp T format float %.15g
 timestep        0.4
 thermo          10
 """
@@ -48,8 +48,11 @@ for name, fix in (("hd/langevin", LANGEVIN), ("hd/brownian", BROWNIAN.replace("s
         apart = max(abs(a - b) for a, b in zip(numbers("straight.dump"), numbers("two.dump")))
         claim(f"{name}, {text}: two ranks follow one", apart < 1e-8, f"{apart:.1e}")
 
-rows = thermo(run(SCENE + LANGEVIN + "run 400\nrun 4000\n"))[42:]
-mean = sum(row["c_T"] for row in rows) / len(rows)
+# at the end of a step of BAOAB a motion of frequency w has 1 - (w dt)^2/4 of its kinetic energy
+
+rows = thermo(run(SCENE + LANGEVIN + "run 400\ntimestep 0.1\nreset_timestep 0\nfix a all ave/time 10 800 8000 c_T\n"
+                  "thermo_style custom step f_a\nthermo 8000\nrun 8000\n"))
+mean = rows[-1]["f_a"]
 claim("compute hd/temp reads the temperature of what moves, without rotations", abs(mean / 0.05 - 1) < 0.01,
       f"{mean:.5f} of 0.05")
 output = run(SCENE + LANGEVIN + "hd_timestep all\nrun 300\nhd_timestep all\n")
@@ -58,7 +61,7 @@ claim("hd_timestep finds steps for it at rest and in thermal motion", 0.3 < foun
 
 # === The reference
 
-output = run(SCENE.replace("volume 1000.0 init", "volume 1000.0 2.7 area 1000.0 12.5") + LANGEVIN + "run 1000\n")
+output = run(SCENE + LANGEVIN + "run 100\ndisplace_atoms all rotate 0 0 0 0 0 1 60\nrun 200\n")
 claim("a shape that leaves the reference gets a new one, with a message", "taken anew" in output)
 claim("a vesicle in equilibrium keeps it", "taken anew" not in run(SCENE + LANGEVIN + "run 1000\n"))
 
@@ -68,7 +71,7 @@ rows = thermo(run(SCENE + LANGEVIN + "run 0\nunfix 1\nfix 1 all hd/nve\nrun 0\nf
                   "unfix 1\nmin_style membrane\nminimize 0 1e-6 0 10\n"))
 at = [row["c_e[10]"] for row in rows]
 claim("the measure is an entry of compute pair, with hd/langevin by itself, with hd/nve if told, never in a minimization",
-      at[0] < -100 and at[1] == 0 and abs(at[2] / at[0] - 1) < 1e-12 and at[3] == 0, at)
+      at[0] < -30 and at[1] == 0 and abs(at[2] / at[0] - 1) < 1e-12 and at[3] == 0, at)
 claim("and part of the potential energy", abs(rows[0]["PotEng"] - rows[1]["PotEng"] - at[0]) < 1e-9)
 rows = thermo(run(SCENE + "fix 1 all hd/langevin 0.05 0.1 1.0 4711 measure yes tally yes\ntimestep 1e-3\nrun 2000\n"))
 drift = max(abs(row["Econserve"] - rows[0]["Econserve"]) for row in rows)

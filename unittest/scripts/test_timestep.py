@@ -95,7 +95,7 @@ claim("1, 2 and 4 ranks find the same limit", max(limits) / min(limits) - 1 < 2e
 
 STATE = "write_dump all custom {} id x y z ix iy iz vx vy vz modify sort id format float %.17g\n"
 HISTORY = sphere(2) + """
-fix 1 all hd/langevin 0.01 0.01 1.0 4711
+fix 1 all hd/langevin 0.01 0.01 1.0 4711 measure no
 timestep 0.0005
 {early}
 hd_velocity all 0.01 4711 mom no
@@ -161,7 +161,8 @@ claim("the recommended step is never beyond half the limit",
 # === Beyond the limit
 
 for fix, scene in (("hd/nve", ""), ("hd/nve mass consistent", ""), ("hd/nve mass lumped", ""),
-                   ("hd/langevin 1e-4 1e-4 1.0 4711", ""), ("hd/brownian 1e-4 4711 gamma_t 0.1", "")):
+                   ("hd/langevin 1e-4 1e-4 1.0 4711 measure no", ""),
+                   ("hd/brownian 1e-4 4711 gamma_t 0.1 measure no", "")):
     # so cold that the motion stays linear: close to the limit larger waves find steps too long that it allows
     scene = relaxed + f"fix 1 all {fix}\nhd_velocity all 1e-6 4711\nhd_timestep all\n"
     limit = number("stability limit", run(scene))
@@ -202,7 +203,7 @@ for commands, expected in (
         ("group none empty\nhd_timestep none", "hd_timestep: group none has no control points"),
         ("hd_timestep all error 0", "hd_timestep error 0 must be between 0 and 1"),
         ("hd_timestep all error 2", "hd_timestep error 2 must be between 0 and 1"),
-        ("hd_timestep all mass heavy", "hd_timestep mass heavy is not vertex, consistent or lumped"),
+        ("hd_timestep all mass heavy", "hd_timestep mass heavy is not vertex, consistent, lumped or sampling"),
         ("hd_timestep all tol 1", "hd_timestep tol 1 must be between 1e-14 and 1e-2"),
         ("hd_timestep all mode degree 1", "hd_timestep mode degree 1 must be 2 or more"),
         ("hd_timestep all mode degree", "Illegal hd_timestep mode command: missing argument(s)"),

@@ -246,7 +246,7 @@ for commands, expected in (
         ("group some id 1:100\nhd_velocity some 1 1",
          "hd_velocity: group some has 100 of the 642 control points of membrane 1"),
         ("group none empty\nhd_velocity none 1 1", "hd_velocity: group none has no control points"),
-        ("hd_velocity all 1 1 mass heavy", "hd_velocity mass heavy is not vertex, consistent or lumped"),
+        ("hd_velocity all 1 1 mass heavy", "hd_velocity mass heavy is not vertex, consistent, lumped or sampling"),
         ("hd_velocity all 1 1 tol 7", "hd_velocity tol 7 must be between 1e-14 and 1e-2"),
         ("hd_velocity all 1 1 mass lumped solver direct", "mass lumped needs no solver"),
         ("hd_velocity all 1 1 loop geom", "Unknown hd_velocity keyword loop"),
