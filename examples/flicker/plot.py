@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The spectrum that in.membrane wrote to spectrum.dat, beside theory: a table, spectrum.txt, and where
-there is matplotlib a picture, spectrum.png."""
+"""The spectrum that in.membrane wrote to spectrum.dat, beside theory, and fitted for bending modulus and tension: a
+table, spectrum.txt, and where there is matplotlib a picture, spectrum.png."""
 
 import math
 
-kT, kc, s = 0.002, 1.0, 0.05
+kT, kc, s = 0.05, 1.0, 0.0
 
 # blocks of rows: index, l, m, u_lm^2
 
@@ -19,17 +19,46 @@ for words in (line.split() for line in open("spectrum.dat") if not line.startswi
 
 # all m of one l together; the error is from the scatter of the blocks
 
-table = []
-for l in range(2, int(blocks[0][-1][0]) + 1):
-    means = [sum(row[2] for row in block if row[0] == l) / (2 * l + 1) for block in blocks]
-    mean = sum(means) / len(means)
-    error = math.sqrt(sum((m - mean) ** 2 for m in means) / (len(means) - 1) / len(means))
-    table.append((l, mean, error, kT / (kc * (l - 1) * (l + 2) * (l * (l + 1) + s))))
+degrees = range(2, int(blocks[0][-1][0]) + 1)
+powers = [{l: sum(row[2] for row in block if row[0] == l) / (2 * l + 1) for l in degrees} for block in blocks]
+
+
+def mean_of(chosen):
+    return {l: sum(power[l] for power in chosen) / len(chosen) for l in degrees}
+
+
+def theory(l, kc, s):
+    return kT / (kc * (l - 1) * (l + 2) * (l * (l + 1) + s))
+
+
+mean = mean_of(powers)
+error = {l: math.sqrt(sum((p[l] - mean[l]) ** 2 for p in powers) / (len(powers) - 1) / len(powers)) for l in degrees}
+
+
+def fit(power):
+    """kc and tension, by least squares: kT/[(l-1)(l+2) <u^2>] = kc l(l+1) + sigma R^2."""
+    x = [l * (l + 1) for l in degrees]
+    y = [kT / ((l - 1) * (l + 2) * power[l]) for l in degrees]
+    w = [(mean[l] / error[l] / value) ** 2 for l, value in zip(degrees, y)]
+    total = sum(w)
+    mx, my = sum(a * b for a, b in zip(w, x)) / total, sum(a * b for a, b in zip(w, y)) / total
+    slope = sum(c * (a - mx) * (b - my) for a, b, c in zip(x, y, w)) / sum(c * (a - mx) ** 2 for a, c in zip(x, w))
+    return slope, my - slope * mx
+
+
+# errors of the fit: leave out one block after the other
+
+fitted = fit(mean)
+others = [fit(mean_of(powers[:i] + powers[i + 1:])) for i in range(len(powers))]
+fit_error = [math.sqrt((len(others) - 1) * sum((o[k] - fitted[k]) ** 2 for o in others) / len(others)) for k in (0, 1)]
+table = [(l, mean[l], error[l], theory(l, kc, s)) for l in degrees]
 
 with open("spectrum.txt", "w") as file:
     file.write(" l   <u_lm^2>      error     theory  ratio\n")
-    for l, mean, error, theory in table:
-        file.write(f"{l:2d} {mean:10.3e} {error:10.1e} {theory:10.3e} {mean / theory:6.3f} +- {error / theory:.3f}\n")
+    for l, power, off, expected in table:
+        file.write(f"{l:2d} {power:10.3e} {off:10.1e} {expected:10.3e} {power / expected:6.3f} +- {off / expected:.3f}\n")
+    for name, value, off in zip(("kc", "tension"), fitted, fit_error):
+        file.write(f"fitted {name}: {value:.3f} +- {off:.3f}\n")
 print(open("spectrum.txt").read(), end="")
 
 try:

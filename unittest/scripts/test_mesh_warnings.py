@@ -14,7 +14,7 @@ create_box      1 box angle/types 1
 create_membrane 1 sphere 2 1.0
 pair_style      helfrich
 pair_coeff      1 1 10.0 0.0 area 100.0 init volume 100.0 init
-fix             1 all hd/langevin 1.0 1.0 10.0 4711
+fix             1 all hd/langevin 1.0 1.0 10.0 4711 measure no
 {modify}
 compute         s all membrane/shape
 thermo_style    custom step pe c_s[10]

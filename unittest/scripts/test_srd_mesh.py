@@ -72,7 +72,7 @@ velocity        solvent set {{v}}
 pair_style      helfrich
 pair_coeff      1 1 0.0 0.0 regularize 0
 fix             1 membrane hd/nve
-fix             2 solvent srd/mesh 100000 membrane 1.0 1.0 4711 shift yes 9127 velocity keep {{args}}
+fix             2 solvent srd/mesh 100000 membrane 1.0 1.0 4711 shift yes 9127 measure no velocity keep {{args}}
 timestep        0.02
 thermo_style    custom step f_2[2] f_2[3] f_2[8]
 thermo          1
@@ -173,7 +173,7 @@ group           solvent type 2
 pair_style      helfrich
 pair_coeff      1 1 {energy}
 {move}
-fix             2 solvent srd/mesh 5 membrane 1.0 1.0 4711 angle 130 shift yes 9127 {args}
+fix             2 solvent srd/mesh 5 membrane 1.0 1.0 4711 angle 130 shift yes 9127 measure no {args}
 compute         T membrane hd/temp
 compute         ks solvent ke
 timestep        0.01
@@ -289,7 +289,7 @@ group           membrane type 1
 group           solvent type 2
 pair_style      helfrich
 pair_coeff      1 1 100.0 0.0
-fix             2 solvent srd/mesh 1 membrane 1.0 1.0 4711 angle 130 shift yes 9127 collision noslip
+fix             2 solvent srd/mesh 1 membrane 1.0 1.0 4711 angle 130 shift yes 9127 measure no collision noslip
 compute         T solvent temp
 thermo_style    custom step c_T
 thermo          20
@@ -317,7 +317,7 @@ group           solvent type 2
 pair_style      helfrich
 pair_coeff      1 1 10.0 0.0 area 200.0 init volume 200.0 init
 fix             1 membrane hd/nve
-fix             2 solvent srd/mesh 40 membrane 1.0 1.0 4711 angle 130 shift yes 9127 collision {collision}
+fix             2 solvent srd/mesh 40 membrane 1.0 1.0 4711 angle 130 shift yes 9127 measure no collision {collision}
 compute         T membrane hd/temp
 compute         ks solvent ke
 variable        e equal pe+ke+c_ks
@@ -363,7 +363,7 @@ group           solvent type 2
 pair_style      helfrich
 pair_coeff      1 1 100.0 0.0
 {move}
-fix             2 solvent srd/mesh {every} membrane 1.0 1.0 4711 angle 130 shift yes 9127 {args}
+fix             2 solvent srd/mesh {every} membrane 1.0 1.0 4711 angle 130 shift yes 9127 measure no {args}
 compute         T solvent temp
 compute_modify  T dynamic/dof yes
 thermo_style    custom step f_2[2] f_2[3] c_T
@@ -465,7 +465,7 @@ pair_style      helfrich
 pair_coeff      1 1 10.0 0.0
 group           wall type 1
 group           solvent type 2
-fix             s solvent srd/mesh 1 {group} 1.0 1.0 4711 angle 130 shift yes 9127
+fix             s solvent srd/mesh 1 {group} 1.0 1.0 4711 angle 130 shift yes 9127 measure no
 timestep        0.1
 thermo_style    custom step f_s[10] f_s[21] f_s[22] f_s[8] f_s[9]
 run             0

@@ -22,7 +22,7 @@ velocity        all set 13.0 0.0 0.0 sum yes
 pair_style      helfrich
 pair_coeff      1 1 20.0 0.0 area 200.0 init volume 200.0 init
 fix             1 membrane hd/nve tol 1e-13
-fix             2 solvent srd/mesh 5 membrane 1.0 1.0 4711 angle 130 shift yes 9127 velocity keep {args}
+fix             2 solvent srd/mesh 5 membrane 1.0 1.0 4711 angle 130 shift yes 9127 measure no velocity keep {args}
 {more}
 timestep        0.005
 thermo_style    custom step f_2[2] f_2[3] f_2[8]

@@ -14,7 +14,7 @@ BLOCKS, NMAX = 20, 4
 FIX = "hd/langevin {kT} {kT} 1.5 4711 mass sampling"
 
 
-def sheet(size, steps, kT=0.05, dt=0.5, tension=0.0, fix=FIX, start=run):
+def sheet(size, steps, kT=0.05, dt=0.35, tension=0.0, fix=FIX, start=run):
     """{|q h|: blocks of the power over theory, kT/[A (kc q^4 + tension q^2)]} of waves up to qh = 1, rows of thermo"""
     lx, ly = 12.0 * size, 7.0 * size * math.sqrt(3)
     per = steps // BLOCKS // 2 * 2
@@ -64,7 +64,7 @@ def claims(text, ratios, precision):
           f"{mean:.4f} +- {weight ** -0.5:.4f}")
 
 
-ratios, rows = sheet(2, 40000 if LONG else 6000)
+ratios, rows = sheet(2, 40000 if LONG else 8000)
 claims("672 points", ratios, 0.01)
 
 # what holds the frame: the virial, and the kinetic energy of equilibrium. That of the energy is zero, and the measure takes
@@ -78,7 +78,7 @@ claim("the frame of a sheet without tension has next to none, where the measure 
       abs(mean) < 0.03 * gas + 3 * error, f"{mean:.5f}({error:.5f}) of {gas:.4f}")
 claim("faces stay in shape", min(row["c_s[9]"] for row in rows) > 15, min(row["c_s[9]"] for row in rows))
 
-ratios, _ = sheet(1, 20000 if LONG else 10000, tension=0.5)
+ratios, _ = sheet(1, 20000 if LONG else 14000, tension=0.5)
 claims("168 points with tension 0.5", ratios, 0.012)
 
 message = sheet(2, 6000, fix=FIX + " measure no", start=error_of)
@@ -89,7 +89,7 @@ if LONG:
     for size, steps in ((1, 40000), (2, 40000), (4, 20000)):
         for inverse in (10, 20, 50):
             for tension in (0.0, 0.5):
-                ratios, _ = sheet(size, steps, kT=1 / inverse, dt=0.4, tension=tension)
+                ratios, _ = sheet(size, steps, kT=1 / inverse, dt=0.35 if inverse > 10 else 0.25, tension=tension)
                 claims(f"{168 * size ** 2} points, kc = {inverse} kT, tension {tension}", ratios, 0.01)
 
 finish()
