@@ -90,7 +90,7 @@ for ranks in RANKS:
     for name, other in (("thermo 7", often), ("restart files", rows(1000, "restart 33 c.1 c.2")),
                         ("fix ave/time", rows(1000, "fix a all ave/time 1 1 1 f_s[1] f_s[3] f_s[4]"))):
         # LAMMPS reneighbors for a restart file and sums in another order, of which collisions make up to 5e-9;
-        # put back at another step, the ends would differ by 1e-2
+        # put back at another step, the ends would differ by 0.1
         apart = max(abs(other[-1][key] - seldom[-1][key]) / max(1.0, abs(seldom[-1][key])) for key in seldom[-1])
         claim(f"   ... and the end is the same with {name}", apart < 1e-6, apart)
 
