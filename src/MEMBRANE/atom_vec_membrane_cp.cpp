@@ -29,21 +29,27 @@
 using namespace LAMMPS_NS;
 
 /* ----------------------------------------------------------------------
-   LAMMPS knows a per-atom array by the address of the pointer to it, and atom style hybrid frees arrays
-   after the sub-styles that these pointers would be in: they stay until the program ends
+   LAMMPS knows a per-atom array by its name and the address of the pointer to it. Atom style hybrid frees
+   arrays after the sub-styles that these pointers would be in, so they stay until the program ends; and
+   an atom style that takes the place of another, as in read_restart, finds the first one's address in the list
 ------------------------------------------------------------------------- */
 
-static bigint *&lasting_pointer()
+static constexpr char ORIGIN[] = "membrane_origin";
+
+static bigint *&lasting_pointer(Atom *atom)
 {
+  for (const auto &known : atom->peratom)
+    if (known.name == ORIGIN) return *static_cast<bigint **>(known.address);
   static auto &all = *new std::deque<bigint *>;
   all.push_back(nullptr);
+  atom->add_peratom(ORIGIN, &all.back(), Atom::BIGINT, 0);
   return all.back();
 }
 
 /* ---------------------------------------------------------------------- */
 
 AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
-    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(lasting_pointer()),
+    AtomVec(lmp), AtomVecAngle(lmp), rmass(nullptr), origin(lasting_pointer(atom)),
     surface(std::make_shared<DistributedMesh>(lmp))
 {
   mass_type = PER_ATOM;
@@ -55,10 +61,9 @@ AtomVecMembraneCP::AtomVecMembraneCP(LAMMPS *lmp) :
 
   // unlike masses, origins of ghost atoms are of no use
 
-  atom->add_peratom("membrane_origin", &origin, Atom::BIGINT, 0);
   for (auto *fields :
        {&fields_grow, &fields_copy, &fields_exchange, &fields_restart, &fields_create})
-    fields->emplace_back("membrane_origin");
+    fields->emplace_back(ORIGIN);
   fields_data_atom = {"id", "molecule", "type", "rmass", "x"};
 
   // the base class has done it for its own fields, and LAMMPS before 2026 forgets these flags
