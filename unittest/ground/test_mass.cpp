@@ -33,6 +33,16 @@ using namespace Membrane_TEST;
 
 namespace {
 
+MassOperator::Settings settings(MassKind kind, bool direct, double tolerance, int most_passes = 1000)
+{
+  MassOperator::Settings result;
+  result.kind = kind;
+  result.direct = direct;
+  result.tolerance = tolerance;
+  result.most_passes = most_passes;
+  return result;
+}
+
 struct Body {
   TriangleMesh mesh;
   Topology topology;
@@ -44,7 +54,7 @@ struct Body {
   Body(TriangleMesh m, MassKind kind, bool direct = false, double tolerance = 1.0e-10) :
       mesh(std::move(m)), topology(mesh.points.size(), mesh.faces), part(topology),
       masses(uneven(mesh.points.size())), labels(numbers(mesh.points.size())),
-      matrix(make_mass({topology, part, masses, labels}, {kind, direct, tolerance}))
+      matrix(make_mass({topology, part, masses, labels}, settings(kind, direct, tolerance)))
   {
   }
   int size() const { return part.owned; }
@@ -139,7 +149,7 @@ TEST(MassOperator, ConsistentRowOfARegularMeshIsTheTextbookOne)
   std::vector<double> masses(mesh.points.size(), 1.0);
   const auto labels = Body::numbers(mesh.points.size());
   const auto matrix =
-      make_mass({topology, part, masses, labels}, {MassKind::CONSISTENT, false, 1e-10});
+      make_mass({topology, part, masses, labels}, settings(MassKind::CONSISTENT, false, 1e-10));
   VertexField unit(part.owned, Vector4{}), row(part.owned);
   unit[0].c[0] = 1.0;
   matrix->multiply(unit, row);
@@ -238,7 +248,7 @@ TEST(MassOperator, RecordsTheResidualOfASolutionThatMissedTheTolerance)
   for (int most_passes : {1000, 5}) {
     Body body(icosphere(2, 1.0), MassKind::CONSISTENT);
     body.matrix = make_mass({body.topology, body.part, body.masses, body.labels},
-                                     {MassKind::CONSISTENT, false, 1e-10, most_passes});
+                                     settings(MassKind::CONSISTENT, false, 1e-10, most_passes));
     const VertexField p = rough(body.size());
     VertexField v(body.size());
     EXPECT_EQ(body.matrix->missed_residual(), 0.0);
