@@ -536,7 +536,7 @@ def hot(lammps):
             dt = fraction * limit
             steps = round(4000 / dt)
             code, output = lammps.attempt(sheet(12, 14, "regularize 0.5") + f"""
-fix             1 all hd/langevin {kT} {kT} 3.0 4711 mass {mass} tol 1e-8
+fix             1 all hd/langevin {kT} {kT} 3.0 4711 mass {mass} tol 1e-8 measure no
 compute         hf all pair helfrich
 compute         s all membrane/shape
 thermo_style    custom step c_hf[1] c_s[9] c_s[7] c_s[8]

@@ -255,7 +255,7 @@ pair_coeff      * * 1.0 0.0 {terms}
 compute         hf all pair helfrich
 compute         s all membrane/shape
 compute         T all hd/temp
-fix             1 all hd/langevin {KT} {KT} 0.2 4711 {fix_options}
+fix             1 all hd/langevin {KT} {KT} 0.2 4711 measure no {fix_options}
 """
     limit = float(re.search(r"stability limit\s+(\S+)", run(start + "hd_timestep all\n", files))[1])
     _, output = lammps(start + before + f"""
@@ -352,7 +352,7 @@ pair_style      {style}
 {coefficients}
 neigh_modify    delay 0 every 1 check yes
 group           lower type 1
-fix             1 all hd/langevin {KT} {KT} 3.0 4711
+fix             1 all hd/langevin {KT} {KT} 3.0 4711 measure no
 compute         m1 lower hd/modes plane 1
 compute         m2 upper hd/modes plane 1
 variable        gap equal c_m2[1]-c_m1[1]

@@ -37,7 +37,7 @@ CASES = {
     "hd/nve, 3 points": ({**FAST, **fix("hd/nve")}, "Loop"),
     "hd/nve, 6 points": ({**DEFAULT, **fix("hd/nve")}, "Loop"),
     "hd/nve mass lumped, 3 points": ({**FAST, **fix("hd/nve mass lumped")}, "Loop"),
-    "hd/langevin, 3 points": ({**FAST, **fix("hd/langevin 1.0 1.0 1.0 4711")}, "Loop"),
+    "hd/langevin, 3 points": ({**FAST, **fix("hd/langevin 1.0 1.0 1.0 4711 measure no")}, "Loop"),
 }
 # M^-1 f: what the fix takes with the mass matrix, less what it takes with a diagonal one
 SOLVE = "M^-1 f, tol 1e-10"

@@ -14,7 +14,7 @@ errors, have the same powers. At 1e-4 they differ by up to 0.2 %, since control 
 large faces, as an energy of -(3/2) kT ln(area) of each vertex does, changes the power of degree l by the part
 (3/2) N kT [l(l+1) - 6]/[4 pi kc (l-1)(l+2)(l(l+1) + s)], 4e-5 or less.
 """
-# cost: 60
+# cost: 40
 # timeout: 7200
 
 import math
@@ -82,8 +82,9 @@ run             {BLOCKS * per}
     return result
 
 
-langevin = sphere(f"hd/langevin {KT} {KT} 0.1 4718 mass lumped", 0.008, 40000)
-compare("sphere of 642 points, hd/langevin", langevin)
+compare("sphere of 642 points, mass sampling", sphere(f"hd/langevin {KT} {KT} 1.5 4718 mass sampling", 0.8, 10000))
+if LONG:
+    compare("sphere of 642 points, mass lumped", sphere(f"hd/langevin {KT} {KT} 0.1 4718 mass lumped", 0.008, 40000))
 small = dict(level=2, response="162 points")
 DRAG = 4 * math.pi / 162
 coarse = sphere(f"hd/langevin {KT} {KT} 0.1 4715", 0.008, 40000, **small)
