@@ -93,8 +93,8 @@ claim("the factor of the mesh is the published one", all(abs(a - b) < 5e-4 for a
 ratios = {}
 DRAG = EDGES[1][1]
 RUNS = [("plane, hd/langevin", "hd/langevin {kT} {kT} 2.8 4711", 0.15, 50000, "regularize 0.1"),
-        ("plane, hd/langevin mass sampling", "hd/langevin {kT} {kT} 1.5 4712 mass sampling", 0.8, 10000, "regularize 0.1"),
-        ("plane, hd/brownian mass sampling", "hd/brownian {kT} 4713 mass sampling", 0.4, 10000, "regularize 0.1"),
+        ("plane, hd/langevin mass sampling", "hd/langevin {kT} {kT} 1.5 4712 mass sampling", 0.8, 12000, "regularize 0.1"),
+        ("plane, hd/brownian mass sampling", "hd/brownian {kT} 4713 mass sampling", 0.4, 16000, "regularize 0.1"),
         ("plane with tension 0.5", "hd/langevin {kT} {kT} 2.0 4714 mass lumped", 0.4, 30000, "regularize 0.1 tension 0.5")]
 if LONG:
     RUNS += [("plane, hd/langevin mass lumped", "hd/langevin {kT} {kT} 2.8 4712 mass lumped", 0.4, 100000, "regularize 0.1"),
