@@ -103,8 +103,10 @@ void HDMass::refresh()
   const bool renumbered = points.follow(Membrane_NS::mass_halo_rings(settings.kind));
   auto *reference = settings.reference.get();
   if (reference) {
-    const auto npoints = (size_t) mesh().topology().num_vertices();
-    if (!reference->now || reference->now->shape.points.size() != npoints) take_reference();
+    const auto &topology = mesh().topology();
+    const bool same = reference->now && reference->now->shape.faces == topology.faces() &&
+        reference->now->shape.points.size() == (size_t) topology.num_vertices();
+    if (!same) take_reference();    // the first time, and after replicate, delete_atoms, reset_atoms
   }
   if (!renumbered && !(reference && reference->renewals != renewals)) return;
   ++numberings;
@@ -185,6 +187,12 @@ void HDMass::archive(RestartArchive &file)
   Membrane_NS::StiffnessReference reference;
   if (!file.is_reading()) reference = *settings.reference->now;
   archive_points(file, reference.shape.points);
+  std::vector<int> corners;
+  for (const auto &face : reference.shape.faces) corners.insert(corners.end(), face.begin(), face.end());
+  file(corners);
+  if (file.is_reading())
+    for (size_t i = 0; i + 2 < corners.size(); i += 3)
+      reference.shape.faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
   for (auto *numbers : {&reference.kc, &reference.tension, &reference.shear, &reference.stretch})
     file(*numbers);
   file(reference.closed);

@@ -65,6 +65,14 @@ output = run(SCENE + LANGEVIN + "run 100\ndisplace_atoms all rotate 0 0 0 0 0 1 
 claim("a shape that leaves the reference gets a new one, with a message", "taken anew" in output)
 claim("a vesicle in equilibrium keeps it", "taken anew" not in run(SCENE + LANGEVIN + "run 1000\n"))
 
+for command in ("replicate 2 1 1", "delete_atoms group second mol yes\nreset_atoms id", "reset_atoms id sort yes", "reset_timestep 0",
+                "displace_atoms all move 0.4 0 0", "balance 1.0 shift x 5 1.0", "group all2 molecule 1"):
+    for ranks in (1, 2):
+        rows = thermo(run(TWO + LANGEVIN + "group second molecule 2\nrun 30\n" + command + "\nrun 30\n", ranks=ranks))
+        claim(f"a run goes on after {command.split(chr(10))[0]}, {ranks} rank(s)",
+              len(rows) == 8 and all(abs(row["c_T"] / 0.05 - 1) < 0.5 for row in rows[2:4] + rows[6:]),
+              [round(row["c_T"], 4) for row in rows])
+
 # === The measure
 
 rows = thermo(run(SCENE + LANGEVIN + "run 0\nunfix 1\nfix 1 all hd/nve\nrun 0\nfix 1 all hd/nve measure 0.05\nrun 0\n"
