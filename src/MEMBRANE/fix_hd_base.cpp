@@ -25,6 +25,7 @@
 #include "force.h"
 #include "hd_face_watch.h"
 #include "hd_stiffness_probe.h"
+#include "membrane_mass_reference.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -63,7 +64,7 @@ static constexpr int FACES_EVERY = 10;
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
     noise_steps(0), most_drift(0.0),
-    moved_step(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0),
+    moved_step(-1), drawn_for(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0),
     watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
@@ -331,10 +332,23 @@ std::string FixHDBase::shape_lost_at(tagint id_of_point)
 
 bool FixHDBase::renew()
 {
-  return sampling() && noise_steps % RENEW_EVERY == 0 && mass.renew();
+  if (!sampling()) return false;
+  if (noise_steps % RENEW_EVERY == 0) mass.renew();
+  const bool another = drawn_for != mass.references();
+  drawn_for = mass.references();
+  return another;
 }
 
 // === Restart
+
+void FixHDBase::archive(RestartArchive &file)
+{
+  file(noise_steps);
+  mass.archive(file);
+  bool drawn = sampling() && drawn_for == mass.references();
+  file(drawn);
+  if (file.is_reading() && sampling() && drawn) drawn_for = mass.settings.reference->renewals;
+}
 
 void FixHDBase::write_restart(FILE *fp)
 {

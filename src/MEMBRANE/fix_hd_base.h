@@ -72,11 +72,7 @@ class FixHDBase : public Fix {
       not of LAMMPS' timestep, which reset_timestep sets back. */
   bigint noise_steps;
   /// What restart files keep, of a fix with restart_global = 1.
-  virtual void archive(RestartArchive &file)
-  {
-    file(noise_steps);
-    mass.archive(file);
-  }
+  virtual void archive(RestartArchive &file);
 
   // === Moves of the momenta p = M v and of x
 
@@ -90,8 +86,8 @@ class FixHDBase : public Fix {
   /// friction per vertex, one per owned vertex. Once a step.
   void relax(double keep, double kT, bigint seed);
   void relax(const std::vector<double> &keep, double kT, bigint seed);
-  /** Collective: now and then, whether mass sampling has been made anew for a shape that has left its
-      reference, so that velocities and noise of the old one are worth nothing. relax() does so itself. */
+  /** Collective, once a step: whether mass sampling is another than in the last step, since the shape has left
+      its reference, or at first, so that velocities of before are worth nothing. relax() does so itself. */
   bool renew();
   /// v = M^-1 f + random1 + random2, where M is a drag matrix: forces and drag balance.
   void balance(const Membrane_NS::VertexField &random1, const Membrane_NS::VertexField &random2);
@@ -100,6 +96,7 @@ class FixHDBase : public Fix {
   Membrane_NS::VertexField force_field, acceleration, velocity, moved;
   double most_drift;
   bigint moved_step;    // of which step `moved` is
+  int64_t drawn_for;    // the reference of mass sampling that velocities are drawn for, or -1
   int passes;           // of the last accelerate()
   bool remembers, check, limit_due;
   double limit;    // of stability for the timestep, when a run last began; 0 if not known

@@ -106,6 +106,8 @@ void HDMass::refresh()
     const auto &topology = mesh().topology();
     const bool same = reference->now && reference->now->shape.faces == topology.faces() &&
         reference->now->shape.points.size() == (size_t) topology.num_vertices();
+    if (!same && reference->now && comm->me == 0)
+      utils::logmesg(lmp, "{} mass sampling: control points have changed, the reference is taken anew\n", user);
     if (!same) take_reference();    // the first time, and after replicate, delete_atoms, reset_atoms
   }
   if (!renumbered && !(reference && reference->renewals != renewals)) return;

@@ -61,6 +61,8 @@ class HDMass : protected Pointers {
   Membrane_NS::MassOperator &matrix() { return *mass; }
   /// Differs after a refresh() that made the matrix anew.
   bigint numbering() const { return numberings; }
+  /// Counts the references of mass sampling: velocities of one are not those of another.
+  int64_t references() const { return renewals; }
   /// Control points of the group, on all ranks.
   bigint count() const { return points.count(); }
   /// v^T M v of the atoms' velocities, xx yy zz xy xz yz; summed over ranks.
