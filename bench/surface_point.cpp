@@ -91,7 +91,7 @@ std::vector<Place> random_places(const LimitSurface &surface, bool regular)
 void measure_faces(const char *title, const TriangleMesh &mesh, bool regular)
 {
   const Topology topology(static_cast<int>(mesh.points.size()), mesh.faces);
-  const LimitSurface surface(topology, mesh);
+  const LimitSurfaceOfMesh surface(topology, mesh);
   ClosestPointFinder finder(surface);
   const std::vector<Place> places = random_places(surface, regular);
   std::printf("%s\n", title);

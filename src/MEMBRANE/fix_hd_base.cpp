@@ -64,7 +64,7 @@ static constexpr int FACES_EVERY = 10;
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
     noise_steps(0), most_drift(0.0),
-    moved_step(-1), drawn_for(-1), passes(0), remembers(false), check(true), limit_due(false), limit(0.0),
+    moved_step(-1), drawn_for(-1), passes(0), forces_due(false), remembers(false), check(true), limit_due(false), limit(0.0),
     watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
 {
   time_integrate = 1;
@@ -155,6 +155,7 @@ FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &use
 void FixHDBase::setup(int)
 {
   accelerate();
+  forces_due = true;
 
   // r-RESPA has several timesteps: no limit is known for it
 
@@ -198,6 +199,7 @@ void FixHDBase::find_limit()
 
 void FixHDBase::accelerate()
 {
+  forces_due = false;
   mass.refresh();
   mass.part().load(atom->f, force_field);
   if (mass.matrix().lost_freedoms() > 0) {
@@ -220,8 +222,19 @@ double FixHDBase::compute_vector(int i)
   return i == 0 ? passes : mass.matrix().residual(force_field, acceleration);
 }
 
+void FixHDBase::respond(const double *const *f, double **v)
+{
+  VertexField force_here, answer;
+  mass.refresh();
+  mass.part().load(f, force_here);
+  answer.resize(force_here.size());
+  mass.matrix().solve(force_here, answer);
+  mass.part().store(answer, v);
+}
+
 void FixHDBase::kick(double step)
 {
+  if (forces_due) accelerate();
   MeshPart &part = mass.part();
   const double scale = step * force->ftm2v;
   for (int i = 0; i < part.owned; ++i) {

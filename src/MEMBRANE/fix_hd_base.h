@@ -60,6 +60,8 @@ class FixHDBase : public Fix {
   /// M^-1 f at the start of the present step, in units of force/mass; the same order.
   const Membrane_NS::VertexField &last_acceleration() const { return acceleration; }
   const MeshPart &part() { return mass.part(); }
+  /// Collective: v = M^-1 f of its control points; both are [atoms][3], of owned atoms.
+  void respond(const double *const *f, double **v);
   /// Its dynamics have no meaning.
   bool sampling() const { return mass.settings.kind == Membrane_NS::MassKind::SAMPLING; }
 
@@ -98,6 +100,7 @@ class FixHDBase : public Fix {
   bigint moved_step;    // of which step `moved` is
   int64_t drawn_for;    // the reference of mass sampling that velocities are drawn for, or -1
   int passes;           // of the last accelerate()
+  bool forces_due;      // a run has begun: fixes after this have added forces since setup()
   bool remembers, check, limit_due;
   double limit;    // of stability for the timestep, when a run last began; 0 if not known
   bool watching;

@@ -33,10 +33,10 @@ static Lane4 four(const Vector3d &x)
 
 /* ---------------------------------------------------------------------- */
 
-LimitSurface::LimitSurface(const Topology &topology, const TriangleMesh &control) :
-    topology_(topology), periodic_(control.periodic), lattice_(control.lattice)
+LimitSurface::LimitSurface(const Topology &topology, const std::array<bool, 3> &periodic) :
+    topology_(topology), periodic_(periodic), lattice_(Matrix3d::Identity()),
+    to_fraction_(Matrix3d::Identity())
 {
-  for (const Vector3d &x : control.points) points_.push_back(four(x));
   start_.push_back(0);
   std::vector<int> stencil;
   for (int f = 0; f < topology.num_faces(); ++f) {
@@ -44,8 +44,24 @@ LimitSurface::LimitSurface(const Topology &topology, const TriangleMesh &control
     topology.stencil(f, stencil);
     stencil_.insert(stencil_.end(), stencil.begin(), stencil.end());
     start_.push_back(static_cast<int>(stencil_.size()));
-    if (is_periodic()) find_images(f, control, stencil);
   }
+}
+
+void LimitSurface::set_box(const Matrix3d &lattice)
+{
+  lattice_ = lattice;
+  to_fraction_ = lattice.inverse();
+}
+
+LimitSurfaceOfMesh::LimitSurfaceOfMesh(const Topology &topology, const TriangleMesh &control) :
+    LimitSurface(topology, control.periodic)
+{
+  for (const Vector3d &x : control.points) points_.push_back(four(x));
+  for (int f = 0; f < topology.num_faces() && is_periodic(); ++f) {
+    const IntSpan points = stencil(f);
+    find_images(f, control, {points.begin(), points.end()});
+  }
+  set_box(control.lattice);
   measure();
 }
 
@@ -54,8 +70,8 @@ LimitSurface::LimitSurface(const Topology &topology, const TriangleMesh &control
    is kept once.
 ------------------------------------------------------------------------- */
 
-void LimitSurface::find_images(int face, const TriangleMesh &control,
-                               const std::vector<int> &stencil)
+void LimitSurfaceOfMesh::find_images(int face, const TriangleMesh &control,
+                                     const std::vector<int> &stencil)
 {
   const Matrix3d to_fraction = control.lattice.inverse();
   std::vector<std::array<int, 3>> image(stencil.size(), {0, 0, 0});
@@ -75,14 +91,13 @@ void LimitSurface::find_images(int face, const TriangleMesh &control,
     throw MeshError("face " + std::to_string(face) + " has points in too many periodic images");
 }
 
-void LimitSurface::move(const std::vector<Vector3d> &points, const Matrix3d &lattice)
+void LimitSurfaceOfMesh::move(const std::vector<Vector3d> &points, const Matrix3d &lattice)
 {
   const Matrix3d before = to_fraction_;
-  lattice_ = lattice;
+  set_box(lattice);
   if (is_periodic()) {
-    const Matrix3d after = lattice.inverse();
     for (size_t v = 0; v < points.size(); ++v) {
-      Vector3d shift = after * points[v] - before * points_[v].head<3>().matrix();
+      Vector3d shift = to_fraction_ * points[v] - before * points_[v].head<3>().matrix();
       for (int k = 0; k < 3; ++k) shift[k] = periodic_[k] ? std::round(shift[k]) : 0.0;
       points_[v] = four(points[v] - lattice * shift);
     }
@@ -93,16 +108,15 @@ void LimitSurface::move(const std::vector<Vector3d> &points, const Matrix3d &lat
 
 // what follows from the points and the box
 
-void LimitSurface::measure()
+void LimitSurfaceOfMesh::measure()
 {
-  to_fraction_ = lattice_.inverse();
   translation_.clear();
   for (const auto &n : images_) translation_.push_back(four(lattice_ * Vector3d(n[0], n[1], n[2])));
   double sum = 0.0;
   for (int v = 0; v < topology_.num_vertices(); ++v)
     for (int w : topology_.ring(v))
       if (v < w) sum += nearest_image((points_[w] - points_[v]).head<3>().matrix()).norm();
-  mean_edge_ = sum / std::max(topology_.num_edges(), 1);
+  set_mean_edge(sum / std::max(topology_.num_edges(), 1));
 }
 
 Vector3d LimitSurface::nearest_image(const Vector3d &difference) const
@@ -115,7 +129,7 @@ Vector3d LimitSurface::nearest_image(const Vector3d &difference) const
 
 /* ---------------------------------------------------------------------- */
 
-void LimitSurface::gather(int face, Lane4 *x) const
+void LimitSurfaceOfMesh::gather(int face, Lane4 *x) const
 {
   const int begin = start_[face], size = start_[face + 1] - begin;
   const int *stencil = stencil_.data() + begin;
@@ -191,27 +205,32 @@ template void LimitSurface::weights<3>(const SurfacePoint &, SurfaceWeights &) c
 
 Matrix3d LimitSurface::vertex_frame(int face, int k) const
 {
-  const int v = topology_.face(face)[k];
-  const IntSpan ring = topology_.ring(v);
+  Lane4 x[MOST_STENCIL];
+  gather(face, x);
+  const IntSpan points = stencil(face), ring = topology_.ring(topology_.face(face)[k]);
   const int n = ring.size();
   Matrix3d frame = Matrix3d::Zero();
+  frame.col(0) = x[k].head<3>().matrix();
   const double spoke = (1.0 - limit_mask_centre(n)) / n;
   for (int i = 0; i < n; ++i) {
-    const Vector3d edge = nearest_image((points_[ring[i]] - points_[v]).head<3>().matrix());
+    const auto column = std::find(points.begin(), points.end(), ring[i]) - points.begin();
+    const Vector3d edge = nearest_image((x[column] - x[k]).head<3>().matrix());
     frame.col(0) += spoke * edge;
     frame.col(1) += 2.0 / n * std::cos(TWO_PI * i / n) * edge;
     frame.col(2) += 2.0 / n * std::sin(TWO_PI * i / n) * edge;
   }
-  Lane4 corner = points_[v];
-  if (!image_.empty()) corner += translation_[image_[start_[face] + k]];
-  frame.col(0) += corner.head<3>().matrix();
   return frame;
 }
 
 double LimitSurface::memory_usage() const
 {
-  return sizeof(Lane4) * (points_.capacity() + translation_.capacity()) +
-      sizeof(LimitPatch *) * patch_.capacity() +
-      sizeof(int) * (start_.capacity() + stencil_.capacity()) +
-      sizeof(std::uint16_t) * image_.capacity() + patches_.memory_usage();
+  return sizeof(LimitPatch *) * patch_.capacity() +
+      sizeof(int) * (start_.capacity() + stencil_.capacity()) + patches_.memory_usage();
+}
+
+double LimitSurfaceOfMesh::memory_usage() const
+{
+  return LimitSurface::memory_usage() +
+      sizeof(Lane4) * (points_.capacity() + translation_.capacity()) +
+      sizeof(std::uint16_t) * image_.capacity();
 }

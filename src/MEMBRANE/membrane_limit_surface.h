@@ -35,27 +35,17 @@ struct SurfacePiece {
   bool contains(const SurfacePoint &p) const { return p.face == face && part.contains(p.u, p.v); }
 };
 
-/** The limit surface of a mesh, to be evaluated at SurfacePoints.
+/** The limit surface over the faces of a topology, to be evaluated at SurfacePoints. Where the control points
+    are, is known to the classes derived from this: LimitSurfaceOfMesh, and on the ranks of a simulation
+    LocalSurface. Evaluation does not allocate and changes nothing.
 
-    Built once for a topology, moved as often as the control points move. Evaluation does not allocate
-    and changes nothing: several threads may evaluate at a time.
-
-    In a periodic box every face is where its first corner is, and its other control points are the
-    images that belong to it; neighbouring faces may be images apart. Points are followed through the
-    box, so positions may come to lie outside of it: use nearest_image() of differences. */
+    In a periodic box every face is somewhere, and its control points are the images that belong to it;
+    neighbouring faces may be images apart: use nearest_image() of differences. */
 class LimitSurface {
  public:
-  /** The topology must outlive this. MeshError for valences beyond MOST_VALENCE.
-      Edges must be shorter than half the box in periodic directions. */
-  LimitSurface(const Topology &topology, const TriangleMesh &control);
+  virtual ~LimitSurface() = default;
 
   const Topology &topology() const { return topology_; }
-
-  /** New places of the control points, any periodic image of them, and a new box, of the same
-      periodicity. In box vectors no point may have moved by half a box. */
-  void move(const std::vector<Eigen::Vector3d> &points, const Eigen::Matrix3d &lattice);
-  /// The same box.
-  void move(const std::vector<Eigen::Vector3d> &points) { move(points, lattice_); }
 
   // === Evaluation
 
@@ -96,26 +86,58 @@ class LimitSurface {
   double mean_edge() const { return mean_edge_; }
 
   /// Bytes held.
-  double memory_usage() const;
+  virtual double memory_usage() const;
 
- private:
+ protected:
+  /// The topology must outlive this. MeshError for valences beyond MOST_VALENCE.
+  LimitSurface(const Topology &topology, const std::array<bool, 3> &periodic);
+
+  /// The control points of a face, as stencil() has them.
+  virtual void gather(int face, Lane4 *x) const = 0;
+  void set_box(const Eigen::Matrix3d &lattice);
+  void set_mean_edge(double length) { mean_edge_ = length; }
+
   const Topology &topology_;
   std::array<bool, 3> periodic_;
   Eigen::Matrix3d lattice_, to_fraction_;
-  std::vector<Lane4> points_;    // followed through the box
-  double mean_edge_ = 0.0;
+  std::vector<int> start_, stencil_;    // the stencils of all faces
 
+ private:
+  double mean_edge_ = 0.0;
   LimitPatches patches_;
   std::vector<const LimitPatch *> patch_;    // [faces]
-  std::vector<int> start_, stencil_;         // the stencils of all faces
+
+  void make_piece(const SurfacePoint &p, SurfacePiece &piece) const;
+};
+
+/** The limit surface of a mesh. Built once for a topology, moved as often as the control points move. Several
+    threads may evaluate at a time.
+
+    In a periodic box every face is where its first corner is. Points are followed through the
+    box, so positions may come to lie outside of it. */
+class LimitSurfaceOfMesh : public LimitSurface {
+ public:
+  /** The topology must outlive this. MeshError for valences beyond MOST_VALENCE.
+      Edges must be shorter than half the box in periodic directions. */
+  LimitSurfaceOfMesh(const Topology &topology, const TriangleMesh &control);
+
+  /** New places of the control points, any periodic image of them, and a new box, of the same
+      periodicity. In box vectors no point may have moved by half a box. */
+  void move(const std::vector<Eigen::Vector3d> &points, const Eigen::Matrix3d &lattice);
+  /// The same box.
+  void move(const std::vector<Eigen::Vector3d> &points) { move(points, lattice_); }
+
+  double memory_usage() const override;
+
+ private:
+  std::vector<Lane4> points_;           // followed through the box
   std::vector<std::uint16_t> image_;    // of each point of a stencil, in translation_; if periodic
   std::vector<std::array<int, 3>> images_;
   std::vector<Lane4> translation_;
 
   void find_images(int face, const TriangleMesh &control, const std::vector<int> &stencil);
   void measure();
-  void gather(int face, Lane4 *x) const;
-  void make_piece(const SurfacePoint &p, SurfacePiece &piece) const;
+  void gather(int face, Lane4 *x) const override;
 };
 
 }    // namespace Membrane_NS

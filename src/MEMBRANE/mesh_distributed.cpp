@@ -65,8 +65,12 @@ void DistributedMesh::update()
   // stencils that outgrow the margin are found in local_neighbor(); an edge and the skin is what
   // LAMMPS makes of the pair cutoff
 
-  comm->cutghostuser =
-      MAX(comm->cutghostuser, MAX(REACH_MARGIN * pieces.reach(), longest_edge() + neighbor->skin));
+  comm->cutghostuser = MAX(comm->cutghostuser, ghost_cutoff());
+}
+
+double DistributedMesh::ghost_cutoff() const
+{
+  return MAX(REACH_MARGIN * pieces.reach(), longest_edge() + neighbor->skin);
 }
 
 bool DistributedMesh::is_closed_membrane(int m) const

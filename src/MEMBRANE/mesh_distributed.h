@@ -55,6 +55,8 @@ class DistributedMesh : public MeshFaces {
   void warn_of_overlap() const;
   /// Longest edge at update().
   double longest_edge() const { return pieces.longest_edge(); }
+  /// How far from an owned control point its stencils reach, until the next update().
+  double ghost_cutoff() const;
   /// Unwrapped coordinates of all vertices at the last update(), [vertices][3]: each connected
   /// component in one piece.
   const std::vector<double> &unwrapped() const { return pieces.points(); }

@@ -27,7 +27,7 @@ using Eigen::Vector2d;
 struct SurfaceScene {
   TriangleMesh mesh;
   Topology topology;
-  LimitSurface surface;
+  LimitSurfaceOfMesh surface;
   explicit SurfaceScene(TriangleMesh m) :
       mesh(std::move(m)), topology(topology_of(mesh)), surface(topology, mesh)
   {

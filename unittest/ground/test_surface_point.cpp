@@ -279,7 +279,7 @@ TEST(SurfacePoint, RefusesValencesThatItHasNoRoomFor)
 {
   const TriangleMesh mesh = bipyramid(33);
   const Topology topology = topology_of(mesh);
-  EXPECT_THROW(LimitSurface(topology, mesh), MeshError);
+  EXPECT_THROW(LimitSurfaceOfMesh(topology, mesh), MeshError);
 }
 
 // === Memory

@@ -1,0 +1,60 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_BOUND_SITES_H
+#define LMP_BOUND_SITES_H
+
+#include "membrane_surface_point.h"
+#include "pointers.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Where an atom is held on a membrane.
+struct BoundSite {
+  tagint corner[3] = {0, 0, 0};          ///< atom IDs of the face's corners, the first of `point` first; 0: free
+  Membrane_NS::SurfacePoint point;       ///< the closest point of the surface
+  double distance = 0.0;                 ///< from it, positive on the outer side
+  int leaflet = 0;                       ///< 1 outer, -1 inner
+  double director[3] = {0.0, 0.0, 0.0};  ///< of length 1, along the surface; 0 if it has none
+
+  bool bound() const { return corner[0] != 0; }
+};
+
+/** The sites of the atoms of a fix, which LAMMPS moves between ranks, sorts, and keeps in restart files
+    with the atoms. Faces are known by their corners, since they may be renumbered between runs. */
+class BoundSites {
+ public:
+  BoundSite &operator[](int i) { return sites[i]; }
+  const BoundSite &operator[](int i) const { return sites[i]; }
+
+  void grow(int nmax) { sites.resize(nmax); }
+  void copy(int from, int to) { sites[to] = sites[from]; }
+  void clear(int i) { sites[i] = BoundSite(); }
+
+  static constexpr int SIZE = 11;    ///< numbers of a site
+  int pack(int i, double *buf) const;
+  int unpack(int i, const double *buf);
+  double memory_usage() const { return sizeof(BoundSite) * sites.capacity(); }
+
+ private:
+  std::vector<BoundSite> sites;
+};
+
+/// The place of a site in the present numbering of faces; face -1 if there is no such face any more.
+Membrane_NS::SurfacePoint find_again(const class MeshFaces &, const BoundSite &);
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,137 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_hd_bind.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+// === Sites follow their atoms
+
+void FixHDBind::grow_arrays(int nmax)
+{
+  sites.grow(nmax);
+}
+
+void FixHDBind::copy_arrays(int i, int j, int)
+{
+  sites.copy(i, j);
+}
+
+void FixHDBind::set_arrays(int i)
+{
+  sites.clear(i);
+}
+
+int FixHDBind::pack_exchange(int i, double *buf)
+{
+  return sites.pack(i, buf);
+}
+
+int FixHDBind::unpack_exchange(int i, double *buf)
+{
+  return sites.unpack(i, buf);
+}
+
+// === Restart
+
+int FixHDBind::pack_restart(int i, double *buf)
+{
+  buf[0] = BoundSites::SIZE + 1;
+  return sites.pack(i, buf + 1) + 1;
+}
+
+void FixHDBind::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  int start = 0;
+  for (int k = 0; k < nth; ++k) start += static_cast<int>(extra[start]);
+  sites.unpack(i, extra + start + 1);
+}
+
+int FixHDBind::size_restart(int)
+{
+  return BoundSites::SIZE + 1;
+}
+
+int FixHDBind::maxsize_restart()
+{
+  return BoundSites::SIZE + 1;
+}
+
+void FixHDBind::archive(RestartArchive &file)
+{
+  file(noise_steps);
+  double kept = spring;
+  file(kept);
+  file(chosen_for);
+  file(chosen_count);
+  if (file.is_reading() && automatic) spring = kept;
+}
+
+void FixHDBind::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  RestartArchive file;
+  archive(file);
+  const int length = static_cast<int>(file.bytes().size()), size = length + sizeof(int);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&length, sizeof(int), 1, fp);
+  fwrite(file.bytes().data(), 1, length, fp);
+}
+
+void FixHDBind::restart(char *buf)
+{
+  int length;
+  memcpy(&length, buf, sizeof(int));
+  const std::string bytes(buf + sizeof(int), length);
+  RestartArchive file(bytes);
+  archive(file);
+  if (!file.ok() || !file.at_end())
+    error->all(FLERR, "The restart file is damaged, or of another version: fix {} ({})", id, style);
+}
+
+// === Exchange of an array [atoms][3]
+
+int FixHDBind::pack_reverse_comm(int n, int first, double *buf)
+{
+  std::copy_n(exchanged[first], 3 * n, buf);
+  return 3 * n;
+}
+
+void FixHDBind::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  for (int j = 0; j < n; ++j)
+    for (int k = 0; k < 3; ++k) exchanged[list[j]][k] += buf[3 * j + k];
+}
+
+int FixHDBind::pack_forward_comm(int n, int *list, double *buf, int, int *)
+{
+  for (int j = 0; j < n; ++j) std::copy_n(exchanged[list[j]], 3, buf + 3 * j);
+  return 3 * n;
+}
+
+void FixHDBind::unpack_forward_comm(int n, int first, double *buf)
+{
+  std::copy_n(buf, 3 * n, exchanged[first]);
+}

@@ -1,0 +1,163 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_hd_bind.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "fix_hd_base.h"
+#include "force.h"
+#include "group.h"
+#include "membrane_random.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+using Membrane_NS::CounterRandom;
+
+// of the largest eigenvalue by the power method: passes, and the change in one at which it is enough
+static constexpr int MOST_PASSES = 30;
+static constexpr double ENOUGH = 1.0e-3;
+
+// === What one particle does to another through the membrane
+
+void FixHDBind::clear_work()
+{
+  if (atom->nlocal + atom->nghost) std::fill_n(work[0], 3 * (atom->nlocal + atom->nghost), 0.0);
+}
+
+/* ----------------------------------------------------------------------
+   to owned control points: sum over particles a of c_a n_a y_a, into work
+------------------------------------------------------------------------- */
+
+void FixHDBind::spread(const std::vector<double> &y)
+{
+  clear_work();
+  for (size_t a = 0; a < feet.size(); ++a) {
+    const Foot &foot = feet[a];
+    const Vector3d along = y[a] * foot.normal;
+    for (int k = foot.start; k < foot.start + foot.size; ++k)
+      for (int d = 0; d < 3; ++d) work[points[k]][d] += weights[k] * along[d];
+  }
+  exchanged = work;
+  comm->reverse_comm(this);
+}
+
+std::vector<FixHDBase *> FixHDBind::integrators(bool overdamped) const
+{
+  std::vector<FixHDBase *> found;
+  for (auto &fix : modify->get_fix_list())
+    if (auto *integrator = dynamic_cast<FixHDBase *>(fix))
+      if ((integrator->drag_coefficient() > 0.0) == overdamped) found.push_back(integrator);
+  return found;
+}
+
+/* ----------------------------------------------------------------------
+   (1/m + S) y, or with mobilities in place of inverse masses; control points that nothing moves do not answer
+------------------------------------------------------------------------- */
+
+void FixHDBind::respond(const std::vector<double> &y, std::vector<double> &result, bool overdamped)
+{
+  spread(y);
+  if (atom->nlocal) std::fill_n(answer[0], 3 * atom->nlocal, 0.0);
+  for (FixHDBase *integrator : integrators(overdamped)) integrator->respond(work, answer);
+  exchanged = answer;
+  comm->forward_comm(this);
+  result.resize(feet.size());
+  for (size_t a = 0; a < feet.size(); ++a) {
+    const Foot &foot = feet[a];
+    double own = 0.0;
+    if (overdamped == is_overdamped())
+      own = overdamped ? diffusion / (force->boltz * temperature) / force->ftm2v : 1.0 / mass_of(foot.atom);
+    double sum = own * y[a];
+    for (int k = foot.start; k < foot.start + foot.size; ++k)
+      for (int d = 0; d < 3; ++d) sum += weights[k] * foot.normal[d] * answer[points[k]][d];
+    result[a] = sum;
+  }
+}
+
+// by the power method: from below, within a few percent
+
+double FixHDBind::largest(bool overdamped)
+{
+  std::vector<double> y(feet.size()), next;
+  const CounterRandom random(1, 0);
+  for (size_t a = 0; a < feet.size(); ++a) y[a] = random.normals(atom->tag[feet[a].atom])[0];
+  double value = 0.0;
+  for (int pass = 0; pass < MOST_PASSES; ++pass) {
+    respond(y, next, overdamped);
+    double mine[2] = {0.0, 0.0}, all[2];
+    for (size_t a = 0; a < y.size(); ++a) {
+      mine[0] += y[a] * y[a];
+      mine[1] += next[a] * next[a];
+    }
+    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+    if (!(all[0] > 0.0 && all[1] > 0.0)) return 0.0;
+    const double before = value;
+    value = std::sqrt(all[1] / all[0]);
+    const double scale = 1.0 / std::sqrt(all[1]);
+    for (size_t a = 0; a < y.size(); ++a) y[a] = scale * next[a];
+    if (std::fabs(value - before) < ENOUGH * value) break;
+  }
+  return value;
+}
+
+double FixHDBind::largest_response()
+{
+  return total > 0 ? largest(false) : 0.0;
+}
+
+double FixHDBind::largest_mobility()
+{
+  const bool any = is_overdamped() || !integrators(true).empty();
+  return total > 0 && any ? force->ftm2v * largest(true) : 0.0;
+}
+
+// === Motion
+
+void FixHDBind::initial_integrate(int)
+{
+  if (diffusion > 0.0) diffuse();
+}
+
+void FixHDBind::final_integrate() {}
+
+/* ----------------------------------------------------------------------
+   dx = mu f dt + sqrt(2 kT mu dt) (xi_n + xi_n+1)/2, second order in dt for equilibrium
+   [B. Leimkuhler and C. Matthews, Appl. Math. Res. Express 2013, 34]; mu = D/kT
+------------------------------------------------------------------------- */
+
+void FixHDBind::diffuse()
+{
+  const double dt = update->dt, mobility = diffusion / (force->boltz * temperature);
+  const double noise = 0.5 * std::sqrt(2.0 * diffusion * dt);
+  const CounterRandom now(seed, noise_steps), next(seed, noise_steps + 1);
+  ++noise_steps;
+  for (int i : members) {
+    const auto a = now.normals(atom->tag[i]), b = next.normals(atom->tag[i]);
+    double *x = atom->x[i], *v = atom->v[i];
+    for (int k = 0; k < 3; ++k) {
+      const double step = mobility * dt * atom->f[i][k] + noise * (a[k] + b[k]);
+      x[k] += step;
+      v[k] = step / dt;
+    }
+  }
+}

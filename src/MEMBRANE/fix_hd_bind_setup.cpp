@@ -1,0 +1,209 @@
+/* -----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing author: MEMBRANE developers
+------------------------------------------------------------------------- */
+
+#include "fix_hd_bind.h"
+
+#include "atom.h"
+#include "bound_search.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_hd_base.h"
+#include "force.h"
+#include "group.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+using Membrane_NS::ClosestPoint;
+
+// distances to two membranes that are the same, in mean edges
+static constexpr double SAME = 1.0e-6;
+
+// the phase of a spring in a step, omega dt: chosen, and where velocity Verlet ends
+static constexpr double PHASE_CHOSEN = 0.5;
+static constexpr double PHASE_MOST = 2.0;
+
+// === What is checked and chosen before a run
+
+void FixHDBind::check_group()
+{
+  tagint mine[2] = {0, 0}, any[2];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (mesh->vertex(atom->tag[i]) >= 0) mine[0] = MAX(mine[0], atom->tag[i]);
+    if (!std::isfinite(atom->x[i][0] + atom->x[i][1] + atom->x[i][2]))
+      mine[1] = MAX(mine[1], atom->tag[i]);
+  }
+  MPI_Allreduce(mine, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (any[0])
+    error->all(FLERR,
+               "Fix hd/bind: atom {} of its group is a control point of a membrane: bind atoms that are none",
+               any[0]);
+  if (any[1]) error->all(FLERR, "Fix hd/bind: coordinates of atom {} are not numbers", any[1]);
+
+  for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {
+    if (fix == this) continue;
+    tagint twice = 0, all;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) twice = MAX(twice, atom->tag[i]);
+    MPI_Allreduce(&twice, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+    if (all)
+      error->all(FLERR, "Atom {} is bound by fix {} and by fix {}: use groups without common atoms", all, id,
+                 fix->id);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   each particle is moved by one fix; and rigid holds correct what integrators before them have done
+------------------------------------------------------------------------- */
+
+void FixHDBind::check_integrators()
+{
+  if (update->whichflag != 1) return;
+  std::vector<int> movers(atom->nlocal, 0);
+  bool after = false;
+  std::string late;
+  for (auto &fix : modify->get_fix_list()) {
+    if (fix == this) after = true;
+    if (!fix->time_integrate) continue;
+    int mine = 0, any;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) {
+        ++movers[i];
+        mine = 1;
+      }
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+    const bool of_membrane = dynamic_cast<FixHDBase *>(fix) && group->bitmask[fix->igroup] & membranebit;
+    if (after && fix != this && (any || of_membrane)) late = fix->id;
+  }
+  if ((rigid || diffusion > 0.0) && !late.empty())
+    error->all(FLERR, "Fix {} (hd/bind) must come after fix {}, which moves its atoms or its membrane", id, late);
+
+  tagint mine[2] = {0, 0}, any[2];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (movers[i] == 0) mine[0] = MAX(mine[0], atom->tag[i]);
+    if (movers[i] > 1) mine[1] = MAX(mine[1], atom->tag[i]);
+  }
+  MPI_Allreduce(mine, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (any[1])
+    error->all(FLERR, "Bound atom {} is moved by more than one fix: use groups without common atoms", any[1]);
+  if (any[0] && comm->me == 0)
+    error->warning(FLERR,
+                   "Bound atom {} is not moved by any fix: integrate it with fix nve, or say brownian in fix "
+                   "hd/bind",
+                   any[0]);
+}
+
+/* ----------------------------------------------------------------------
+   atoms that have no site, or whose face is gone, get the closest one, and are taken there
+------------------------------------------------------------------------- */
+
+void FixHDBind::bind_free_atoms()
+{
+  int mine = 0, any;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    BoundSite &site = sites[i];
+    if (site.bound()) site.point = find_again(*mesh, site);
+    if (site.point.face < 0) site.corner[0] = 0;
+    if (!site.bound()) mine = 1;
+  }
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any) return;
+
+  const auto &topology = mesh->topology();
+  std::vector<int> inside(topology.num_components(), 0), all(inside.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh->vertex(atom->tag[i]);
+    if (v >= 0 && atom->mask[i] & membranebit) inside[topology.component(v)] = 1;
+  }
+  MPI_Allreduce(inside.data(), all.data(), static_cast<int>(inside.size()), MPI_INT, MPI_MAX, world);
+  std::vector<int> components;
+  for (int c = 0; c < topology.num_components(); ++c)
+    if (all[c]) components.push_back(c);
+  if (components.empty())
+    error->all(FLERR, "Fix hd/bind: group {} has no control points to bind to", membrane_name);
+
+  const BoundSearch search(*mesh, components);
+  const double edge = limit->mean_edge();
+  const double most = max_distance > 0.0 ? max_distance : FARTHEST * edge;
+  double moved[2] = {0.0, 0.0}, sums[2];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    BoundSite &site = sites[i];
+    if (!(atom->mask[i] & groupbit) || site.bound()) continue;
+    double *x = atom->x[i];
+    const auto found = search.find(Vector3d::Map(x));
+    const ClosestPoint &closest = found.closest;
+    site.leaflet = leaflet ? leaflet : closest.distance < 0.0 ? -1 : 1;
+    const double off = height * site.leaflet - closest.distance;
+    if (std::fabs(off) > most)
+      error->one(FLERR,
+                 "Fix hd/bind: atom {} is {:.4g} from where it would be bound, and max is {:.4g}: place it closer, "
+                 "or raise max",
+                 atom->tag[i], std::fabs(off), most);
+    if (found.next - std::fabs(closest.distance) < SAME * edge)
+      error->one(FLERR,
+                 "Fix hd/bind: atom {} is equally near to membranes {} and {}: name one of them by its group",
+                 atom->tag[i], mesh->molecule(found.component), mesh->molecule(found.next_component));
+    remember(i, closest);
+    for (int k = 0; k < 3; ++k) x[k] += off * closest.normal[k];
+    site.distance += off;
+    moved[0] = MAX(moved[0], std::fabs(off));
+    moved[1] += 1.0;
+  }
+  MPI_Allreduce(&moved[0], &sums[0], 1, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(&moved[1], &sums[1], 1, MPI_DOUBLE, MPI_SUM, world);
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Fix hd/bind {}: {:.0f} atoms bound, moved by {:.3g} at most\n", id, sums[1], sums[0]);
+}
+
+void FixHDBind::remember(int i, const ClosestPoint &closest)
+{
+  BoundSite &site = sites[i];
+  site.point = closest.point;
+  site.distance = closest.distance;
+  for (int k = 0; k < 3; ++k) site.corner[k] = mesh->tag(mesh->topology().face(closest.point.face)[k]);
+}
+
+/* ----------------------------------------------------------------------
+   velocity Verlet follows a spring up to omega dt = 2, an overdamped step up to rate dt = 2
+------------------------------------------------------------------------- */
+
+void FixHDBind::choose_spring()
+{
+  if (rigid || total == 0) return;
+  const double dt = update->dt;
+  const double inert = force->ftm2v * largest_response() * dt * dt, damped = largest_mobility() * dt;
+  if (automatic && (chosen_for != dt || chosen_count != total)) {
+    const double most = PHASE_CHOSEN * PHASE_CHOSEN / MAX(inert, damped);
+    spring = std::isfinite(most) ? most : 0.0;
+    chosen_for = dt;
+    chosen_count = total;
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Fix hd/bind {}: spring {:.6g} for the timestep {}\n", id, spring, dt);
+  }
+  phase = std::sqrt(spring * inert);
+  if (update->whichflag != 1) return;
+  if (phase > PHASE_MOST || spring * damped > PHASE_MOST)
+    error->all(FLERR,
+               "Fix hd/bind spring {:.6g} is unstable with the timestep {}: at most {:.4g}, or say auto",
+               spring, dt, PHASE_CHOSEN * PHASE_CHOSEN / MAX(inert, damped));
+}
