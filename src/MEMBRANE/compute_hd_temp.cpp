@@ -21,7 +21,9 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
+#include "fix_hd_bind.h"
 #include "force.h"
+#include "modify.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -30,7 +32,7 @@ using namespace LAMMPS_NS;
 
 ComputeHDTemp::ComputeHDTemp(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), tfactor(0.0), mass(lmp, igroup, "Compute hd/temp"),
-    settings_given(false), lost(0)
+    settings_given(false), lost(0), bound(0)
 {
   scalar_flag = vector_flag = 1;
   size_vector = 6;
@@ -66,6 +68,11 @@ void ComputeHDTemp::init()
       mass.settings = integrator->mass_settings();
   mass.settings.direct = false;    // it solves nothing
   mass.init(true);
+  binds.clear();
+  for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {
+    auto *bind = dynamic_cast<FixHDBind *>(fix);
+    if (!bind->is_overdamped()) binds.push_back(bind);
+  }
 }
 
 void ComputeHDTemp::setup()
@@ -82,17 +89,40 @@ void ComputeHDTemp::setup()
 void ComputeHDTemp::dof_compute()
 {
   adjust_dof_fix();
-  dof = 3.0 * mass.count() - lost - extra_dof - fix_dof;
+  bigint mine = 0;
+  for (const FixHDBind *bind : binds)
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit && atom->mask[i] & bind->groupbit) ++mine;
+  MPI_Allreduce(&mine, &bound, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  dof = 3.0 * (mass.count() + bound) - lost - extra_dof - fix_dof;
   tfactor = dof > 0.0 ? force->mvv2e / (dof * force->boltz) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
 
+// twice the kinetic energy, xx yy zz xy xz yz
+
+void ComputeHDTemp::kinetic(double *t)
+{
+  mass.kinetic(t);
+  if (bound == 0) return;
+  double mine[6] = {}, all[6];
+  for (const FixHDBind *bind : binds)
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & groupbit && atom->mask[i] & bind->groupbit)) continue;
+      const double m = bind->mass_of(i), *v = atom->v[i];
+      const double product[6] = {v[0] * v[0], v[1] * v[1], v[2] * v[2], v[0] * v[1], v[0] * v[2], v[1] * v[2]};
+      for (int k = 0; k < 6; ++k) mine[k] += m * product[k];
+    }
+  MPI_Allreduce(mine, all, 6, MPI_DOUBLE, MPI_SUM, world);
+  for (int k = 0; k < 6; ++k) t[k] += all[k];
+}
+
 double ComputeHDTemp::compute_scalar()
 {
   invoked_scalar = update->ntimestep;
   double t[6];
-  mass.kinetic(t);
+  kinetic(t);
   const int now = mass.matrix().lost_freedoms();
   if (dynamic || now != lost) {
     lost = now;
@@ -104,6 +134,6 @@ double ComputeHDTemp::compute_scalar()
 void ComputeHDTemp::compute_vector()
 {
   invoked_vector = update->ntimestep;
-  mass.kinetic(vector);
+  kinetic(vector);
   for (int i = 0; i < 6; ++i) vector[i] *= force->mvv2e;
 }

@@ -23,9 +23,11 @@ ComputeStyle(hd/temp,ComputeHDTemp);
 #include "compute.h"
 #include "hd_mass.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
-/// Temperature of control points, from the kinetic energy qdot^T M qdot / 2.
+/// Temperature of control points, from the kinetic energy qdot^T M qdot / 2, and of atoms bound to them.
 class ComputeHDTemp : public Compute {
  public:
   ComputeHDTemp(class LAMMPS *, int, char **);
@@ -41,8 +43,11 @@ class ComputeHDTemp : public Compute {
   HDMass mass;
   bool settings_given;
   int lost;    // degrees of freedom that the mass does not have
+  std::vector<class FixHDBind *> binds;
+  bigint bound;    // atoms of the group that they hold and others move
 
   void dof_compute();
+  void kinetic(double *);
 };
 
 }    // namespace LAMMPS_NS

@@ -22,9 +22,11 @@
 #include "error.h"
 #include "group.h"
 #include "memory.h"
+#include "modify.h"
 #include "respa.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -33,12 +35,15 @@ using namespace FixConst;
 using Eigen::Vector3d;
 using Membrane_NS::ClosestPoint;
 
+// of closest points, in mean edges: energies are then right to its square
+static constexpr double PRECISION = 1.0e-10;
+
 /* ---------------------------------------------------------------------- */
 
 FixHDBind::FixHDBind(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), max_distance(0.0), leaflet(0), height(0.0), rigid(false), automatic(true),
     spring(0.0), diffusion(0.0), temperature(0.0), seed(0), noise_steps(0), mesh(lmp, "Fix hd/bind"),
-    total(0), chosen_for(0.0), chosen_count(0), energy(0.0), squares(0.0), farthest(0.0), phase(0.0),
+    total(0), precision(0.0), chosen_for(0.0), chosen_count(0), energy(0.0), squares(0.0), farthest(0.0), phase(0.0),
     work(nullptr), answer(nullptr), exchanged(nullptr), allocated(0)
 {
   mesh.require();
@@ -190,6 +195,7 @@ void FixHDBind::init()
   }
   if (mesh.init() == MeshChange::TOPOLOGY || !limit)
     limit = std::make_unique<LocalSurface>(lmp, *mesh);
+  if (precision == 0.0) precision = PRECISION * limit->mean_edge();
   check_group();
   bind_free_atoms();
   check_integrators();
@@ -199,7 +205,7 @@ void FixHDBind::init()
 
 void FixHDBind::reset_dt()
 {
-  if (automatic && !rigid && update->dt != chosen_for) choose_spring();
+  if (update->whichflag == 1 && automatic && !rigid && update->dt != chosen_for) choose_spring();
 }
 
 void FixHDBind::setup(int vflag)
@@ -209,6 +215,7 @@ void FixHDBind::setup(int vflag)
   choose_spring();
   if (!utils::strmatch(update->integrate_style, "^respa")) {
     post_force(vflag);
+    if (rigid) constrain_velocities();
     return;
   }
   auto *respa = dynamic_cast<Respa *>(update->integrate);
@@ -261,6 +268,9 @@ void FixHDBind::find_members()
     else
       mine = MAX(mine, atom->tag[i]);
   }
+  // in an order that does not depend on how LAMMPS has sorted atoms, so that sums do not either
+
+  std::sort(members.begin(), members.end(), [this](int i, int j) { return atom->tag[i] < atom->tag[j]; });
   MPI_Allreduce(&mine, &any, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (any)
     error->all(FLERR,
@@ -286,7 +296,7 @@ void FixHDBind::find_feet()
     BoundSite &site = sites[i];
     limit->look_from(i);
     const Vector3d x = Vector3d::Map(atom->x[i]);
-    const ClosestPoint closest = closest_point(*limit, x, site.point);
+    const ClosestPoint closest = closest_point(*limit, x, site.point, precision);
     const int face = closest.point.face, size = limit->stencil(face).size();
     if (face != site.point.face || closest.point.u != site.point.u || closest.point.v != site.point.v)
       remember(i, closest);
@@ -385,6 +395,23 @@ double FixHDBind::compute_vector(int which)
 double FixHDBind::mass_of(int i) const
 {
   return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+}
+
+std::vector<int> FixHDBind::owned_faces() const
+{
+  std::vector<int> faces;
+  for (int f : mesh->owned_faces()) {
+    const int i = atom->map(mesh->tag(mesh->topology().face(f)[0]));
+    if (atom->mask[i] & membranebit) faces.push_back(f);
+  }
+  return faces;
+}
+
+FixHDBind *FixHDBind::named(LAMMPS *lmp, const std::string &id, const std::string &user)
+{
+  auto *fix = dynamic_cast<FixHDBind *>(lmp->modify->get_fix_by_id(id));
+  if (!fix) lmp->error->all(FLERR, "{}: there is no fix hd/bind of ID {}", user, id);
+  return fix;
 }
 
 double FixHDBind::memory_usage()

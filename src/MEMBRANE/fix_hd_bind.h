@@ -29,6 +29,7 @@ FixStyle(hd/bind,FixHDBind);
 
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -53,6 +54,7 @@ class FixHDBind : public Fix {
   void min_post_force(int) override;
   void final_integrate() override;
   void reset_dt() override;
+  bigint dof(int) override;
 
   /// The energy of the springs.
   double compute_scalar() override;
@@ -81,6 +83,8 @@ class FixHDBind : public Fix {
 
   // === What others ask
 
+  /// The fix of this ID, or an error of `user`.
+  static FixHDBind *named(class LAMMPS *, const std::string &id, const std::string &user);
   /// Collective: the largest eigenvalue of 1/m + S, S_ab = n_a.n_b c_a^T M^-1 c_b: times the spring's
   /// stiffness and ftm2v it is the square of a frequency. 0 without particles. Feet are those of the last step.
   double largest_response();
@@ -88,12 +92,18 @@ class FixHDBind : public Fix {
   double largest_mobility();
   /// Stiffness of the spring, energy/distance^2; 0 if it is not known yet or the hold is rigid.
   double stiffness() const { return rigid ? 0.0 : spring; }
+  /// The spring is chosen with the timestep.
+  bool follows_timestep() const { return automatic; }
   int membrane_bit() const { return membranebit; }
   /// Whether it moves its atoms itself, without inertia.
   bool is_overdamped() const { return diffusion > 0.0; }
   /// The site of an owned atom of the group.
   const BoundSite &site(int i) const { return sites[i]; }
-  const LocalSurface &surface() const { return *limit; }
+  LocalSurface &surface() const { return *limit; }
+  /// Owned atoms that are bound, and owned faces of the membranes of the membrane group.
+  const std::vector<int> &bound_atoms() const { return members; }
+  std::vector<int> owned_faces() const;
+  double mass_of(int) const;
   /// Collective: feet at the present positions, for computes.
   void update_feet();
 
@@ -118,6 +128,7 @@ class FixHDBind : public Fix {
   std::unique_ptr<LocalSurface> limit;
   BoundSites sites;
   bigint total;               // of bound atoms, on all ranks
+  double precision;           // of closest points, a length: the same for all runs, so that restarts are exact
   double chosen_for;          // timestep that an automatic spring is for
   bigint chosen_count;        // and number of particles
   double energy, squares, farthest, phase;
@@ -129,6 +140,7 @@ class FixHDBind : public Fix {
     Eigen::Vector3d normal;
     int start, size;          // of its weights
   };
+  using FeetOfRank = std::tuple<std::vector<Foot>, std::vector<double>, std::vector<int>>;
   std::vector<int> members;   // owned atoms that are bound
   std::vector<Foot> feet;     // of them
   std::vector<double> weights;
@@ -150,7 +162,6 @@ class FixHDBind : public Fix {
   void find_feet();
   void remember(int, const Membrane_NS::ClosestPoint &);
   void choose_spring();
-  double mass_of(int) const;
 
   // steps
   void hold(int);
@@ -160,6 +171,11 @@ class FixHDBind : public Fix {
   std::vector<class FixHDBase *> integrators(bool overdamped) const;
   double largest(bool overdamped);
   void respond(const std::vector<double> &, std::vector<double> &, bool overdamped);
+  double dot(const std::vector<double> &, const std::vector<double> &) const;
+  std::vector<double> multipliers(const std::vector<double> &residual);
+  void push(const std::vector<double> &, double step, double **by);
+  void constrain_positions();
+  void constrain_velocities();
   void archive(RestartArchive &);
 };
 

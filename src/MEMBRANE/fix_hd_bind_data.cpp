@@ -82,6 +82,7 @@ int FixHDBind::maxsize_restart()
 void FixHDBind::archive(RestartArchive &file)
 {
   file(noise_steps);
+  file(precision);
   double kept = spring;
   file(kept);
   file(chosen_for);

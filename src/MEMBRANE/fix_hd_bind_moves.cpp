@@ -136,9 +136,13 @@ double FixHDBind::largest_mobility()
 void FixHDBind::initial_integrate(int)
 {
   if (diffusion > 0.0) diffuse();
+  if (rigid) constrain_positions();
 }
 
-void FixHDBind::final_integrate() {}
+void FixHDBind::final_integrate()
+{
+  if (rigid) constrain_velocities();
+}
 
 /* ----------------------------------------------------------------------
    dx = mu f dt + sqrt(2 kT mu dt) (xi_n + xi_n+1)/2, second order in dt for equilibrium

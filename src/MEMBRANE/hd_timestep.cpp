@@ -22,6 +22,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
+#include "fix_hd_bind.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "group.h"
@@ -31,6 +32,7 @@
 #include "math_const.h"
 #include "membrane_mass_kinds.h"
 #include "membrane_tessellation.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -90,11 +92,13 @@ void HDTimestep::command(int narg, char **arg)
   StiffnessProbe probe(lmp, mass, StiffnessProbe::Forces::ALL);
   if (!probe.has_forces()) error->all(FLERR, "hd_timestep needs forces: use pair_style helfrich");
   probe.evaluate(true);
-  const auto largest = probe.largest(MOST_STEPS, TOLERANCE);
+  auto largest = probe.largest(MOST_STEPS, TOLERANCE);
   if (!(largest.value > 0.0) || !std::isfinite(largest.value))
     error->all(FLERR,
                "hd_timestep: nothing resists displacements of the control points: are the "
                "coefficients of pair_style helfrich zero?");
+  const double springs = largest_of_springs(overdamped);
+  largest.value += springs;
   const double fastest = overdamped ? largest.value : std::sqrt(largest.value);
   const double limit = 2.0 / fastest;
 
@@ -105,6 +109,9 @@ void HDTimestep::command(int narg, char **arg)
   if (largest.uncertainty > TOLERANCE * largest.value)
     print(fmt::format("  (Lanczos' method did not converge: true to {:.1g} only)\n",
                       largest.uncertainty / largest.value));
+  if (springs > 0.0)
+    print(fmt::format("  {:<36}{:.6g}\n", overdamped ? "of these, of bound particles" : "of bound particles alone",
+                      overdamped ? springs : std::sqrt(springs)));
   print(fmt::format("  {:<36}{:.6g}\n", "stability limit", limit));
 
   double period = 0.0;
@@ -160,6 +167,23 @@ void HDTimestep::command(int narg, char **arg)
   if (period > 0.0)
     print(fmt::format("  {:<36}{:.0f}\n", "recommended steps in this time", period / dt));
   if (set) input->one(fmt::format("timestep {:.2g}", dt));
+}
+
+/* ----------------------------------------------------------------------
+   squares of frequencies, or rates, add up at most. Springs that follow the timestep do not limit it
+------------------------------------------------------------------------- */
+
+double HDTimestep::largest_of_springs(bool overdamped) const
+{
+  double sum = 0.0;
+  for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {
+    auto *bind = dynamic_cast<FixHDBind *>(fix);
+    if (bind->follows_timestep()) continue;
+    bind->update_feet();
+    sum += bind->stiffness() *
+        (overdamped ? bind->largest_mobility() : force->ftm2v * bind->largest_response());
+  }
+  return sum;
 }
 
 void HDTimestep::print(const std::string &text) const

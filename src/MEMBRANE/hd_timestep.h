@@ -50,6 +50,7 @@ class HDTimestep : public Command {
   bool start_moving(HDMass &, double limit) const;
   double energy_error(HDMass &, class StiffnessProbe &, double dt, int nsteps) const;
   std::vector<Trial> run_trials(HDMass &, StiffnessProbe &, double limit) const;
+  double largest_of_springs(bool overdamped) const;
   void print(const std::string &) const;
 };
 
