@@ -36,7 +36,8 @@ using Membrane_NS::ClosestPoint;
 // distances to two membranes that are the same, in mean edges
 static constexpr double SAME = 1.0e-6;
 
-// the phase of a spring in a step, omega dt: chosen, and where velocity Verlet ends
+// the phase of a spring in a step, omega dt, or without inertia its rate times dt: chosen, and where the
+// integrators end
 static constexpr double PHASE_CHOSEN = 0.5;
 static constexpr double PHASE_MOST = 2.0;
 
@@ -192,8 +193,11 @@ void FixHDBind::choose_spring()
   if (rigid || total == 0) return;
   const double dt = update->dt;
   const double inert = force->ftm2v * largest_response() * dt * dt, damped = largest_mobility() * dt;
+  auto stiffest = [](double inertial, double overdamped) {
+    return MIN(PHASE_CHOSEN * PHASE_CHOSEN / inertial, PHASE_CHOSEN / overdamped);
+  };
   if (automatic && (chosen_for != dt || chosen_count != total)) {
-    const double most = PHASE_CHOSEN * PHASE_CHOSEN / MAX(inert, damped);
+    const double most = stiffest(inert, damped);
     spring = std::isfinite(most) ? most : 0.0;
     chosen_for = dt;
     chosen_count = total;
@@ -205,5 +209,5 @@ void FixHDBind::choose_spring()
   if (phase > PHASE_MOST || spring * damped > PHASE_MOST)
     error->all(FLERR,
                "Fix hd/bind spring {:.6g} is unstable with the timestep {}: at most {:.4g}, or say auto",
-               spring, dt, PHASE_CHOSEN * PHASE_CHOSEN / MAX(inert, damped));
+               spring, dt, stiffest(inert, damped));
 }
