@@ -62,6 +62,8 @@ class FixHDBase : public Fix {
   const MeshPart &part() { return mass.part(); }
   /// Collective: v = M^-1 f of its control points; both are [atoms][3], of owned atoms.
   void respond(const double *const *f, double **v);
+  /// The temperature, times Boltzmann's constant, that its shapes are sampled at; 0 if it is not known.
+  double sampled_kT() const { return measure.kT; }
   /// Its dynamics have no meaning.
   bool sampling() const { return mass.settings.kind == Membrane_NS::MassKind::SAMPLING; }
 

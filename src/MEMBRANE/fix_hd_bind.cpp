@@ -42,6 +42,7 @@ static constexpr double PRECISION = 1.0e-10;
 
 FixHDBind::FixHDBind(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), max_distance(0.0), leaflet(0), height(0.0), rigid(false), automatic(true),
+    correct(Correct::DEFAULT), correcting(false),
     spring(0.0), diffusion(0.0), temperature(0.0), seed(0), noise_steps(0), mesh(lmp, "Fix hd/bind"),
     total(0), precision(0.0), chosen_for(0.0), chosen_count(0), energy(0.0), squares(0.0), farthest(0.0), phase(0.0),
     work(nullptr), answer(nullptr), exchanged(nullptr), allocated(0)
@@ -66,6 +67,8 @@ FixHDBind::FixHDBind(LAMMPS *lmp, int narg, char **arg) :
   if (imembrane < 0) error->all(FLERR, "Could not find fix hd/bind membrane group ID {}", arg[3]);
   membranebit = group->bitmask[imembrane];
   for (int iarg = 4; iarg < narg;) iarg += parse(iarg, narg, arg);
+  if (correct == Correct::YES && !rigid)
+    error->all(FLERR, "Fix hd/bind correct is for hold rigid: springs need no correction");
   if (rigid && diffusion > 0.0)
     error->all(FLERR, "Fix hd/bind brownian needs hold spring: without inertia there is nothing rigid to conserve");
   time_integrate = diffusion > 0.0;
@@ -130,6 +133,11 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
       error->all(FLERR, "Fix hd/bind hold spring {} must be positive, or auto", arg[iarg + 2]);
     return 3;
   }
+  if (key == "correct") {
+    need(2);
+    correct = utils::logical(FLERR, arg[iarg + 1], false, lmp) ? Correct::YES : Correct::NO;
+    return 2;
+  }
   if (key == "brownian") {
     need(4);
     temperature = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
@@ -141,7 +149,9 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
     return 4;
   }
   error->all(FLERR,
-             "Unknown fix hd/bind keyword {}; known are: max, leaflet, height, hold, brownian", key);
+             "Unknown fix hd/bind keyword {}; known are: max, leaflet, height, hold, correct, "
+             "brownian",
+             key);
   return 0;
 }
 
@@ -199,6 +209,10 @@ void FixHDBind::init()
   check_group();
   bind_free_atoms();
   check_integrators();
+  correcting = rigid && correct != Correct::NO && bath_kT() > 0.0 && update->whichflag == 1;
+  if (rigid && correct == Correct::YES && update->whichflag == 1 && !correcting)
+    error->all(FLERR, "Fix hd/bind correct yes needs a temperature, and the fix that moves the membrane has none: "
+                      "leave it out, or use fix hd/langevin or fix hd/nve measure");
   comm->cutghostuser =
       MAX(comm->cutghostuser, mesh->ghost_cutoff() + height + FARTHEST * mesh->longest_edge());
 }
@@ -350,7 +364,10 @@ void FixHDBind::hold(int vflag)
   v_init(vflag);
   energy = 0.0;
   find_feet();
-  if (rigid) return;
+  if (rigid) {
+    if (correcting) correct_metric();
+    return;
+  }
   std::vector<double> pull(feet.size());
   for (size_t a = 0; a < feet.size(); ++a) {
     const int i = feet[a].atom;

@@ -120,6 +120,8 @@ class FixHDBind : public Fix {
   int leaflet;            // 0: both
   double height;
   bool rigid, automatic;
+  enum class Correct { DEFAULT, YES, NO } correct;    // the metric factor of rigid particles
+  bool correcting;                                    // in this run
   double spring;
   double diffusion, temperature;    // of motion without inertia; 0: others move the atoms
   bigint seed, noise_steps;
@@ -174,6 +176,8 @@ class FixHDBind : public Fix {
   double dot(const std::vector<double> &, const std::vector<double> &) const;
   std::vector<double> multipliers(const std::vector<double> &residual);
   void push(const std::vector<double> &, double step, double **by);
+  double bath_kT() const;
+  void correct_metric();
   void constrain_positions();
   void constrain_velocities();
   void archive(RestartArchive &);
