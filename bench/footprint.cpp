@@ -80,7 +80,7 @@ void measure(const char *title, TriangleMesh mesh)
   const double roughness = 0.05 * mesh.edge(mesh.faces[0][0], mesh.faces[0][1]).norm();
   for (Vector3d &p : mesh.points)
     for (int k = 0; k < 3; ++k) p[k] += roughness * (2.0 * random() - 1.0);
-  const LimitSurface surface(topology, mesh);
+  const LimitSurfaceOfMesh surface(topology, mesh);
   std::vector<Particle> particles;
   for (int i = 0; i < topology.num_vertices(); ++i) {
     const double u = random(), v = random() * (1.0 - u);
