@@ -15,9 +15,9 @@
 //
 //   cmake --build build --target bench_footprint && build/bench_footprint
 //
-// A row for each mesh and rule; microseconds a particle: one particle on a surface that has moved, and 1 and
-// 4 particles per 10 vertices at a time, which share what they know of faces. The best of twenty runs. The last column is
-// the error of 2Hbar, against the rule with twelve points.
+// A row for each mesh and rule, in microseconds a particle: one particle on a surface that has moved, and
+// one for every ten and four for every ten vertices, which share what is known of faces. The best of twenty
+// runs. The last column is the error of 2Hbar, against the rule with twelve points.
 
 #include "membrane_footprint.h"
 #include "membrane_mesh_shapes.h"

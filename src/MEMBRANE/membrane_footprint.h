@@ -41,14 +41,14 @@ struct CurvatureCoupling {
   bool has_director() const { return k_par != 0.0 || k_perp != 0.0; }
 };
 
-/** The surface under a particle: means over the quadrature points r_k within rho of its place x, with the
-    weights A_k W_k, W_k = (1 - |x - r_k|^2/rho^2)^3. All zero if there is none. */
+/** The surface under a particle: means over the quadrature points r_k within rho of its place x, with
+    the weights A_k W_k, W_k = (1 - |x - r_k|^2/rho^2)^3. All zero if there is none. */
 struct FootprintAverage {
   double area = 0.0;         ///< sum of A_k W_k: a quarter of that of a disc of radius rho
   double curvature = 0.0;    ///< 2Hbar: 2/R on a sphere
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< nbar, of length 1
-  /** The mean of the curvature tensors, each turned into the plane across nbar by the smallest rotation that does it.
-      Symmetric, nothing along nbar, its trace is 2Hbar; exact on spheres and cylinders. */
+  /** Sbar, the mean of the curvature tensors, each turned into the plane across nbar by the smallest
+      rotation. Symmetric, nothing along nbar, its trace is 2Hbar; t.Sbar.t is the curvature along t. */
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
 };
 
@@ -65,18 +65,20 @@ struct FootprintForces {
 
 /** The footprints of particles on one surface.
 
-    A face counts if it is within reach and joined to the face of the foot, across edges, through faces within
-    reach: other parts of the surface that come close in space do not. Within reach is what may be
-    closer than rho by a bound of where the face is, no more than 1.2 of its edges from its middle: all of the
-    piece of surface that a ball of radius rho around x cuts out around the foot counts.
+    A face counts if it is within reach and joined to the face of the foot, across edges, through faces
+    within reach: other parts of the surface that come close in space alone do not. Within reach is a face
+    that may be closer than rho by a bound on where it is, 1.2 edges around its middle at most: all of the
+    piece of surface around the foot that a ball of radius rho around x cuts out counts, and nothing
+    that could only be reached from there by leaving the ball by more than that.
 
-    Energies are functions of x, control points and directors in space alone: what the foot is good for is its face.
-    Forces are exact derivatives. A director enters by its direction in the plane across nbar: what it has along nbar,
-    and its length, change nothing.
+    Energies are functions of x, control points and director in space alone; of the foot only the face is
+    looked at. Forces are the exact derivatives of these functions, each with the others held. The energy
+    knows a director by its direction in the plane across nbar: to change its length or what it has along
+    nbar, as carry_director() does, costs nothing, so a director may be carried whenever one likes.
 
-    What is known of a face is kept until the surface moves, so particles that share faces share the cost; forces on
-    control points are worked out once for all particles. Allocates memory only if more faces are in reach than ever
-    before. */
+    What is known of a face is kept until the surface moves, so particles that share faces share the cost,
+    and forces on control points are worked out once for all particles. Allocates memory only if more faces
+    are in reach than ever before. */
 class Footprints {
  public:
   /// Both must outlive this; when the topology changes, make another.
@@ -85,20 +87,20 @@ class Footprints {
   /// Call when the surface or its box has moved. Forgets forces that were not taken.
   void update();
 
-  /** What is under a place x. Looks at control points up to radius + 4 edges away. MeshError if in a periodic
-      direction the footprint and a face are wider than the box. */
+  /** What is under a place x. Looks at control points up to radius + 4 edges away. MeshError if in a
+      periodic direction the footprint and a face on each side are wider than the box. */
   FootprintAverage average(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius);
 
-  /** Energy and forces of a particle. Any periodic image of x will do. Errors as of average(), and MeshError for a
-      director along nbar; without has_director() it is not looked at. */
+  /** Energy and forces of a particle. Any periodic image of x will do. Errors as of average(), and
+      MeshError for a director along nbar; without has_director() none is looked at. */
   FootprintForces add(const CurvatureCoupling &particle, const Eigen::Vector3d &x,
                       const SurfacePoint &foot,
                       const Eigen::Vector3d &director = Eigen::Vector3d::Zero());
 
-  /** Hands out the forces on control points by all particles added since update() or since the last call:
-      give(face, force) for each face that has any, force[k] on control point k of stencil(face). Returns
-      the virial, the sum of r f^T over particles and control points, in images in which they are neighbours; with
-      directors its antisymmetric part is that of the torques on them. */
+  /** Hands out the forces on control points by all particles added since update() or since the last
+      call: give(face, force) for each face that has any, force[k] on control point k of stencil(face), a
+      Lane4. Returns the virial of these particles, the sum of r f^T over them and control points, in images
+      in which they are neighbours; its antisymmetric part is that of the torques on directors. */
   template <class Give> Eigen::Matrix3d take_forces(Give &&give);
   /// The same, added to an array [vertices].
   Eigen::Matrix3d take_forces(std::vector<Eigen::Vector3d> &force);
@@ -166,9 +168,9 @@ class Footprints {
   void pull_face(int face);
 };
 
-/** Carries a director to another place: without its part along the normal there, of length 1. In small steps this is parallel
-    transport, and with `normal` the nbar of a footprint its energy stays what it is. MeshError if it is
-    along the normal (to 1e-6). */
+/** Carries a director to another place: without its part along the normal there, of length 1. In small
+    steps this is parallel transport; with nbar of its footprint for the normal, its energy stays what it
+    is, exactly. MeshError if it is along the normal (to 1e-6). */
 Eigen::Vector3d carry_director(const Eigen::Vector3d &director, const Eigen::Vector3d &normal);
 
 /* ---------------------------------------------------------------------- */

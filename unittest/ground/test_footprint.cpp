@@ -116,7 +116,6 @@ void expect_forces_are_derivatives(const CurvatureCoupling &particle)
 {
   constexpr double H = 1.0e-4;    // W has jumps in its third derivative, which are errors of H^2
   double worst[3] = {};
-  int of_control_points = 0;
   std::set<int> valences;
   for (const TriangleMesh &mesh : force_meshes()) {
     FootprintScene scene(mesh);
@@ -131,7 +130,11 @@ void expect_forces_are_derivatives(const CurvatureCoupling &particle)
       scene.footprints.take_forces(force);
       ASSERT_GT(out.area, 0.0);
       double largest = out.force.norm();    // the unit of errors
-      for (const Vector3d &f : force) largest = std::max(largest, f.norm());
+      std::vector<size_t> shaped;           // vertices with a force
+      for (size_t v = 0; v < force.size(); ++v) {
+        largest = std::max(largest, force[v].norm());
+        if (!force[v].isZero(0.0)) shaped.push_back(v);
+      }
 
       for (int k = 0; k < 3; ++k) {
         const Vector3d e = Vector3d::Unit(k);
@@ -142,26 +145,36 @@ void expect_forces_are_derivatives(const CurvatureCoupling &particle)
             H);
         worst[0] = std::max(worst[0], std::fabs(by_x + out.force[k]) / largest);
         if (!particle.has_director()) continue;
+        // where the surface bends alike in all directions, that force is left over by others
+        const double twist = std::max(out.director_force.norm(), 0.01 * largest);
         const double by_t = derivative(
             [&](double s) {
               return scene.energy(particle, at.x, foot, at.director + s * e);
             },
             H);
-        worst[1] =
-            std::max(worst[1], std::fabs(by_t + out.director_force[k]) / out.director_force.norm());
+        worst[1] = std::max(worst[1], std::fabs(by_t + out.director_force[k]) / twist);
       }
-      for (size_t v = 0; v < force.size(); v += how_many(1) + random.below(4)) {
-        ++of_control_points;
-        const Vector3d e = random.vector().normalized();
+      // one control point at a time, then all at once, each in a random direction
+
+      const size_t number = force.size(), some = how_many(20), together = 4;
+      for (size_t i = 0; i < some + together; ++i) {
+        Points step(number, Vector3d::Zero());
+        const size_t v = shaped[random.below(static_cast<int>(shaped.size()))];
+        double expected = 0.0;
+        for (size_t w = 0; w < number; ++w) {
+          if (i < some && w != v) continue;
+          step[w] = random.vector();
+          expected -= force[w].dot(step[w]);
+        }
         const double by_q = derivative(
             [&](double s) {
               Points points = mesh.points;
-              points[v] += s * e;
+              for (size_t w = 0; w < number; ++w) points[w] += s * step[w];
               scene.move(points);
               return scene.energy(particle, at.x, foot, at.director);
             },
             H);
-        worst[2] = std::max(worst[2], std::fabs(by_q + force[v].dot(e)) / largest);
+        worst[2] = std::max(worst[2], std::fabs(by_q - expected) / largest);
       }
       scene.move(mesh.points);
     }
@@ -171,7 +184,6 @@ void expect_forces_are_derivatives(const CurvatureCoupling &particle)
     testing::Test::RecordProperty(names[i], scientific(worst[i]));
     EXPECT_LT(worst[i], 1.0e-7) << names[i];
   }
-  EXPECT_GT(of_control_points, SANITIZED ? 200 : 1000);
   for (int n = 3; n <= 9; ++n) EXPECT_EQ(valences.count(n), 1u) << n;
 }
 
@@ -262,7 +274,7 @@ TEST(Footprint, ParticlesTogetherAreTheSumOfEachAlone)
     EXPECT_EQ(a.force, b.force);
   }
   const Matrix3d virial = together.footprints.take_forces(force);
-  EXPECT_LT((virial - virials).norm(), 1.0e-11 * virials.norm());
+  EXPECT_LT((virial - virials).norm(), 1.0e-12 * virials.norm());
   for (size_t v = 0; v < force.size(); ++v)
     EXPECT_LT((force[v] - sum[v]).norm(), 1.0e-11 * virials.norm());
 
