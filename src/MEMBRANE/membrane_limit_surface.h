@@ -66,6 +66,8 @@ class LimitSurface {
   {
     return {stencil_.data() + start_[face], stencil_.data() + start_[face + 1]};
   }
+  /// Where these are, in the images that belong to the face: x has room for MOST_STENCIL.
+  void control_points(int face, Lane4 *x) const { gather(face, x); }
 
   // === Extraordinary vertices
 

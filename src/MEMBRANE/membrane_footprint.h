@@ -1,0 +1,192 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_MEMBRANE_FOOTPRINT_H
+#define LMP_MEMBRANE_FOOTPRINT_H
+
+#include "membrane_limit_surface.h"
+#include "membrane_quadrature.h"
+
+#include <vector>
+
+namespace Membrane_NS {
+
+// How a particle that is bound to a membrane couples to its curvature (doc/src/Derivation_footprint.rst).
+
+/** What a particle is made of. It stands in place of the bare membrane over its area a; its energy is
+
+      a [ kp/2 (2Hbar - c0p)^2 + k_par/2 (c_t - c_par)^2 + k_perp/2 (c_s - c_perp)^2
+          - kc/2 (2Hbar - c0)^2 ]
+
+    with the curvature 2Hbar of its footprint, and in it those along the director, c_t, and across, c_s;
+    c_t + c_s = 2Hbar. Any consistent units; curvatures are positive where a sphere is seen from outside. */
+struct CurvatureCoupling {
+  double area = 0.0;
+  double radius = 0.0;                  ///< rho, how far the footprint reaches
+  double kp = 0.0, c0p = 0.0;           ///< whatever the direction
+  double k_par = 0.0, c_par = 0.0;      ///< along the director
+  double k_perp = 0.0, c_perp = 0.0;    ///< across, in the surface
+  double kc = 0.0, c0 = 0.0;            ///< of the bare membrane
+
+  bool has_director() const { return k_par != 0.0 || k_perp != 0.0; }
+};
+
+/** The surface under a particle: means over the quadrature points r_k within rho of its place x, with
+    the weights A_k W_k, W_k = (1 - |x - r_k|^2/rho^2)^3. All zero if there is none. */
+struct FootprintAverage {
+  double area = 0.0;         ///< sum of A_k W_k: a quarter of that of a disc of radius rho
+  double curvature = 0.0;    ///< 2Hbar: 2/R on a sphere
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< nbar, of length 1
+  /** Sbar, the mean of the curvature tensors, each turned into the plane across nbar by the smallest
+      rotation. Symmetric, nothing along nbar, its trace is 2Hbar; t.Sbar.t is the curvature along t. */
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+};
+
+/// One particle. All zero if there is no quadrature point in reach.
+struct FootprintForces {
+  double energy = 0.0;
+  double area = 0.0, curvature = 0.0;                  ///< see FootprintAverage
+  double along = 0.0, across = 0.0;                    ///< c_t and c_s; with a director only
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< nbar; with a director only
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the particle
+  /// Minus the derivative by the director t, across t and nbar: the torque is t x this.
+  Eigen::Vector3d director_force = Eigen::Vector3d::Zero();
+};
+
+/** The footprints of particles on one surface.
+
+    A face counts if it is within reach and joined to the face of the foot, across edges, through faces
+    within reach: other parts of the surface that come close in space alone do not. Within reach is a face
+    that may be closer than rho by a bound on where it is, 1.2 edges around its middle at most: all of the
+    piece of surface around the foot that a ball of radius rho around x cuts out counts, and nothing
+    that could only be reached from there by leaving the ball by more than that.
+
+    Energies are functions of x, control points and director in space alone; of the foot only the face is
+    looked at. Forces are the exact derivatives of these functions, each with the others held. The energy
+    knows a director by its direction in the plane across nbar: to change its length or what it has along
+    nbar, as carry_director() does, costs nothing, so a director may be carried whenever one likes.
+
+    What is known of a face is kept until the surface moves, so particles that share faces share the cost,
+    and forces on control points are worked out once for all particles. Allocates memory only if more faces
+    are in reach than ever before. */
+class Footprints {
+ public:
+  /// Both must outlive this; when the topology changes, make another.
+  Footprints(const LimitSurface &surface, PatchRules &rules);
+
+  /// Call when the surface or its box has moved. Forgets forces that were not taken.
+  void update();
+
+  /** What is under a place x. Looks at control points up to radius + 4 edges away. MeshError if in a
+      periodic direction the footprint and a face on each side are wider than the box. */
+  FootprintAverage average(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius);
+
+  /** Energy and forces of a particle. Any periodic image of x will do. Errors as of average(), and
+      MeshError for a director along nbar; without has_director() none is looked at. */
+  FootprintForces add(const CurvatureCoupling &particle, const Eigen::Vector3d &x,
+                      const SurfacePoint &foot,
+                      const Eigen::Vector3d &director = Eigen::Vector3d::Zero());
+
+  /** Hands out the forces on control points by all particles added since update() or since the last
+      call: give(face, force) for each face that has any, force[k] on control point k of stencil(face), a
+      Lane4. Returns the virial of these particles, the sum of r f^T over them and control points, in images
+      in which they are neighbours; its antisymmetric part is that of the torques on directors. */
+  template <class Give> Eigen::Matrix3d take_forces(Give &&give);
+  /// The same, added to an array [vertices].
+  Eigen::Matrix3d take_forces(std::vector<Eigen::Vector3d> &force);
+
+  /// Bytes held; the rules are not counted.
+  double memory_usage() const;
+
+ private:
+  // a symmetric 3x3 matrix
+  struct Symmetric {
+    double xx, yy, zz, xy, xz, yz;
+    Eigen::Vector3d operator*(const Eigen::Vector3d &v) const
+    {
+      return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2],
+              xz * v[0] + yz * v[1] + zz * v[2]};
+    }
+    void add(double factor, const Eigen::Vector3d &v);    // factor v v^T
+  };
+  // a point of a rule: what the surface does there, and derivatives of the energy by that
+  struct Point {
+    Point() {}             // leaves numbers alone
+    double area = -1.0;    // A_k; negative: only the position is known
+    double curvature;      // 2H
+    double by_area, by_curvature;
+    Eigen::Vector3d by_position;
+    Eigen::Vector3d normal, by_normal;    // from here on for directors
+    Symmetric tensor, by_tensor;
+    void forget();
+  };
+  // a face: its rule, where its points begin, a sphere around it
+  struct Patch {
+    const PatchRule *rule = nullptr;
+    int epoch = 0, visit = 0, first = 0;
+    bool touched = false;
+    Eigen::Vector3d center;
+    double radius;
+  };
+  // a point within rho of the particle
+  struct Near {
+    int point;
+    Eigen::Vector3d away;    // r - x
+    double weight, slope;    // W, and dW/dr = slope (r - x)
+  };
+  struct Sums {
+    double area = 0.0, curvature = 0.0;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  };
+
+  const LimitSurface &surface_;
+  PatchRules &rules_;
+  int epoch_ = 1, visit_ = 0;
+  double half_width_;              // of the box
+  std::vector<Patch> patches_;     // [faces]
+  std::vector<Lane4> position_;    // of points
+  std::vector<Point> points_;
+  std::vector<int> queue_, reached_;    // faces of a particle: looked at, with points in reach
+  std::vector<int> touched_;            // faces with forces to be taken
+  std::vector<Near> near_;
+  Eigen::Matrix3d virial_;
+  Lane4 force_[MOST_STENCIL];    // on the control points of a face
+
+  Sums look(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius, bool directed);
+  Patch &place(int face);
+  bool look_at_points(const Patch &patch, int face, const Eigen::Vector3d &from, double radius);
+  void pull_face(int face);
+};
+
+/** Carries a director to another place: without its part along the normal there, of length 1. In small
+    steps this is parallel transport; with nbar of its footprint for the normal, its energy stays what it
+    is, exactly. MeshError if it is along the normal (to 1e-6). */
+Eigen::Vector3d carry_director(const Eigen::Vector3d &director, const Eigen::Vector3d &normal);
+
+/* ---------------------------------------------------------------------- */
+
+template <class Give> Eigen::Matrix3d Footprints::take_forces(Give &&give)
+{
+  for (int face : touched_) {
+    pull_face(face);
+    give(face, static_cast<const Lane4 *>(force_));
+  }
+  touched_.clear();
+  const Eigen::Matrix3d sum = virial_;
+  virial_.setZero();
+  return sum;
+}
+
+}    // namespace Membrane_NS
+
+#endif
