@@ -29,6 +29,8 @@ struct BoundSite {
   int leaflet = 0;                       ///< 1 outer, -1 inner
   double director[3] = {0.0, 0.0, 0.0};  ///< of length 1, along the surface; 0 if it has none
 
+  double curvature = 0.0;                ///< 2Hbar of its footprint in the last step; does not follow the atom
+
   bool bound() const { return corner[0] != 0; }
 };
 

@@ -28,7 +28,7 @@
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 
-enum { FACE, U, V, DISTANCE, P_U, P_V, MEAN, GAUSSIAN, NORMAL, LEAFLET = NORMAL + 3, NCOLUMNS };
+enum { FACE, U, V, DISTANCE, P_U, P_V, MEAN, GAUSSIAN, NORMAL, LEAFLET = NORMAL + 3, FOOTPRINT, DIRECTOR, NCOLUMNS = DIRECTOR + 3 };
 
 /* ---------------------------------------------------------------------- */
 
@@ -79,6 +79,8 @@ void ComputeHDSurfaceAtom::compute_peratom()
     row[GAUSSIAN] = point.gaussian_curvature;
     for (int k = 0; k < 3; ++k) row[NORMAL + k] = point.normal[k];
     row[LEAFLET] = site.leaflet;
+    row[FOOTPRINT] = site.curvature;
+    for (int k = 0; k < 3; ++k) row[DIRECTOR + k] = site.director[k];
   }
 }
 

@@ -42,6 +42,9 @@ using Membrane_NS::SurfacePoint;
 static constexpr int CELLS = 4;
 static constexpr double MARGIN = 1.25;
 
+// off the surface, in mean edges, so that fix hd/bind leaflet both sees which leaflet it is
+static constexpr double HINT = 1.0e-4;
+
 // in vain, for each atom, before it is said that there is no room
 static constexpr bigint MOST_TRIES = 10000;
 
@@ -183,7 +186,7 @@ std::vector<Vector3d> CreateBound::find_places()
     const auto jet = surface.evaluate<1>(place_in(cell, b[0], b[1]));
     if (a[1] * cell.bound > jet.area_vector().norm()) continue;
     const int side = leaflet ? leaflet : c[0] < 0.5 ? -1 : 1;
-    const Vector3d x = jet.position() + side * height * jet.normal();
+    const Vector3d x = jet.position() + side * MAX(height, HINT * surface.mean_edge()) * jet.normal();
     auto too_close = [&](const Vector3d &y) {
       return surface.nearest_image(y - x).squaredNorm() < least * least;
     };

@@ -35,6 +35,9 @@ using namespace FixConst;
 using Eigen::Vector3d;
 using Membrane_NS::ClosestPoint;
 
+// how much further than its radius a footprint looks, in longest edges
+static constexpr double REACH = 5.0;
+
 // of closest points, in mean edges: energies are then right to its square
 static constexpr double PRECISION = 1.0e-10;
 
@@ -43,8 +46,9 @@ static constexpr double PRECISION = 1.0e-10;
 FixHDBind::FixHDBind(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), max_distance(0.0), leaflet(0), height(0.0), rigid(false), automatic(true),
     correct(Correct::DEFAULT), correcting(false),
-    spring(0.0), diffusion(0.0), temperature(0.0), seed(0), noise_steps(0), mesh(lmp, "Fix hd/bind"),
-    total(0), precision(0.0), chosen_for(0.0), chosen_count(0), energy(0.0), squares(0.0), farthest(0.0), phase(0.0),
+    spring(0.0), diffusion(0.0), temperature(0.0), seed(0), noise_steps(0), turning(0.0),
+    turning_temperature(0.0), turning_seed(0), mesh(lmp, "Fix hd/bind"), curvature(lmp),
+    footprint_energy(0.0), total(0), precision(0.0), chosen_for(0.0), chosen_count(0), energy(0.0), squares(0.0), farthest(0.0), phase(0.0),
     work(nullptr), answer(nullptr), exchanged(nullptr), allocated(0)
 {
   mesh.require();
@@ -148,9 +152,20 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
     if (seed <= 0) error->all(FLERR, "Fix hd/bind brownian seed {} must be positive", arg[iarg + 3]);
     return 4;
   }
+  if (key == "footprint" || key == "bar") return curvature.parse(narg - iarg, arg + iarg);
+  if (key == "rotate") {
+    need(4);
+    turning_temperature = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    turning = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+    turning_seed = utils::bnumeric(FLERR, arg[iarg + 3], false, lmp);
+    if (!(turning_temperature > 0.0 && turning > 0.0) || turning_seed <= 0)
+      error->all(FLERR, "Fix hd/bind rotate: temperature {}, diffusion coefficient {} and seed {} must be positive",
+                 arg[iarg + 1], arg[iarg + 2], arg[iarg + 3]);
+    return 4;
+  }
   error->all(FLERR,
              "Unknown fix hd/bind keyword {}; known are: max, leaflet, height, hold, correct, "
-             "brownian",
+             "brownian, footprint, bar, rotate",
              key);
   return 0;
 }
@@ -204,7 +219,8 @@ void FixHDBind::init()
       error->all(FLERR, "Fix hd/bind respa level {} does not exist", respa_level);
   }
   if (mesh.init() == MeshChange::TOPOLOGY || !limit)
-    limit = std::make_unique<LocalSurface>(lmp, *mesh);
+    make_surface();
+  curvature.init(*mesh, membranebit);
   if (precision == 0.0) precision = PRECISION * limit->mean_edge();
   check_group();
   bind_free_atoms();
@@ -215,6 +231,8 @@ void FixHDBind::init()
                       "leave it out, or use fix hd/langevin or fix hd/nve measure");
   comm->cutghostuser =
       MAX(comm->cutghostuser, mesh->ghost_cutoff() + height + FARTHEST * mesh->longest_edge());
+  if (curvature.any())
+    comm->cutghostuser = MAX(comm->cutghostuser, curvature.radius() + REACH * mesh->longest_edge());
 }
 
 void FixHDBind::reset_dt()
@@ -247,6 +265,12 @@ void FixHDBind::min_setup(int vflag)
   post_force(vflag);
 }
 
+void FixHDBind::make_surface()
+{
+  limit = std::make_unique<LocalSurface>(lmp, *mesh);
+  curvature.set_surface(limit.get());
+}
+
 // === In a step
 
 void FixHDBind::follow()
@@ -257,7 +281,7 @@ void FixHDBind::follow()
     return;
   }
   if (change == MeshChange::TOPOLOGY) {
-    limit = std::make_unique<LocalSurface>(lmp, *mesh);
+    make_surface();
     for (int i = 0; i < atom->nlocal; ++i)
       if (sites[i].bound()) sites[i].point = find_again(*mesh, sites[i]);
   }
@@ -364,6 +388,7 @@ void FixHDBind::hold(int vflag)
   v_init(vflag);
   energy = 0.0;
   find_feet();
+  if (curvature.any()) couple();
   if (rigid) {
     if (correcting) correct_metric();
     return;
@@ -405,6 +430,7 @@ double FixHDBind::compute_vector(int which)
       MPI_Allreduce(&squares, &all, 1, MPI_DOUBLE, MPI_SUM, world);
       return total > 0 ? std::sqrt(all / total) : 0.0;
     case LARGEST: MPI_Allreduce(&farthest, &all, 1, MPI_DOUBLE, MPI_MAX, world); return all;
+    case FOOTPRINTS: MPI_Allreduce(&footprint_energy, &all, 1, MPI_DOUBLE, MPI_SUM, world); return all;
     default: return phase;
   }
 }

@@ -20,6 +20,7 @@ FixStyle(hd/bind,FixHDBind);
 #ifndef LMP_FIX_HD_BIND_H
 #define LMP_FIX_HD_BIND_H
 
+#include "bound_curvature.h"
 #include "bound_sites.h"
 #include "fix.h"
 #include "membrane_closest_point.h"
@@ -56,7 +57,7 @@ class FixHDBind : public Fix {
   void reset_dt() override;
   bigint dof(int) override;
 
-  /// The energy of the springs.
+  /// The energy of springs, footprints and correction.
   double compute_scalar() override;
   /// See the enum Output.
   double compute_vector(int) override;
@@ -112,7 +113,7 @@ class FixHDBind : public Fix {
   /// mean edges.
   static constexpr double FARTHEST = 0.5;
 
-  enum Output { STIFFNESS, COUNT, RMS, LARGEST, PHASE, NUM_OUTPUT };
+  enum Output { STIFFNESS, COUNT, RMS, LARGEST, PHASE, FOOTPRINTS, NUM_OUTPUT };
 
   int membranebit;
   std::string membrane_name;
@@ -125,10 +126,15 @@ class FixHDBind : public Fix {
   double spring;
   double diffusion, temperature;    // of motion without inertia; 0: others move the atoms
   bigint seed, noise_steps;
+  double turning, turning_temperature;    // diffusion of directors, in angle^2/time; 0: none
+  bigint turning_seed;
 
   LocalMesh mesh;
   std::unique_ptr<LocalSurface> limit;
   BoundSites sites;
+  BoundCurvature curvature;
+  double footprint_energy;
+  std::vector<double> torque;    // on directors about the normal, by member
   bigint total;               // of bound atoms, on all ranks
   double precision;           // of closest points, a length: the same for all runs, so that restarts are exact
   double chosen_for;          // timestep that an automatic spring is for
@@ -159,6 +165,7 @@ class FixHDBind : public Fix {
   void check_group();
   void check_integrators();
   void bind_free_atoms();
+  void make_surface();
   void follow();
   void find_members();
   void find_feet();
@@ -170,6 +177,9 @@ class FixHDBind : public Fix {
   void clear_work();
   void spread(const std::vector<double> &);
   void diffuse();
+  void couple();
+  void give_director(int, const Eigen::Vector3d &normal);
+  void turn_directors();
   std::vector<class FixHDBase *> integrators(bool overdamped) const;
   double largest(bool overdamped);
   void respond(const std::vector<double> &, std::vector<double> &, bool overdamped);

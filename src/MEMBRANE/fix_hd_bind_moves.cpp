@@ -131,10 +131,66 @@ double FixHDBind::largest_mobility()
   return total > 0 && any ? force->ftm2v * largest(true) : 0.0;
 }
 
+// === Curvature
+
+// in a direction at random, the same on any number of ranks
+
+void FixHDBind::give_director(int i, const Vector3d &normal)
+{
+  const auto z = CounterRandom(turning_seed ^ 0x6469720000ULL, 0).normals(atom->tag[i]);
+  const Vector3d any(z[0], z[1], z[2]);
+  Vector3d::Map(sites[i].director) = (any - any.dot(normal) * normal).normalized();
+}
+
+void FixHDBind::couple()
+{
+  curvature.update();
+  torque.assign(members.size(), 0.0);
+  footprint_energy = 0.0;
+  clear_work();
+  for (size_t a = 0; a < feet.size(); ++a) {
+    const int i = feet[a].atom;
+    limit->look_from(i);
+    auto director = Vector3d::Map(sites[i].director);
+    if (curvature.has_director(atom->type[i]) && director.isZero()) give_director(i, feet[a].normal);
+    Vector3d turn = Vector3d::Zero();
+    footprint_energy += curvature.add(i, sites[i], atom->f[i], turn);
+    torque[a] = director.cross(turn).dot(feet[a].normal);
+  }
+  energy += footprint_energy;
+  double v[6] = {};
+  curvature.take_forces(work, v);
+  if (vflag_global)
+    for (int k = 0; k < 6; ++k) virial[k] += v[k];
+  exchanged = work;
+  comm->reverse_comm(this);
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int k = 0; k < 3; ++k) atom->f[i][k] += work[i][k];
+}
+
+// d angle = D/kT torque dt + sqrt(2 D dt) (xi_n + xi_n+1)/2, about the normal
+
+void FixHDBind::turn_directors()
+{
+  const double dt = update->dt, noise = 0.5 * std::sqrt(2.0 * turning * dt);
+  const double mobility = turning / (force->boltz * turning_temperature);
+  const CounterRandom now(turning_seed, noise_steps), next(turning_seed, noise_steps + 1);
+  if (diffusion == 0.0) ++noise_steps;
+  for (size_t a = 0; a < feet.size() && a < torque.size(); ++a) {
+    const int i = feet[a].atom;
+    if (!curvature.has_director(atom->type[i])) continue;
+    const double angle = mobility * torque[a] * dt +
+        noise * (now.normals(atom->tag[i], 1)[0] + next.normals(atom->tag[i], 1)[0]);
+    auto t = Vector3d::Map(sites[i].director);
+    t = std::cos(angle) * t + std::sin(angle) * feet[a].normal.cross(t);
+  }
+}
+
 // === Motion
 
 void FixHDBind::initial_integrate(int)
 {
+  if (turning > 0.0 && curvature.any()) turn_directors();
   if (diffusion > 0.0) diffuse();
   if (rigid) constrain_positions();
 }

@@ -33,7 +33,8 @@ using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 using Membrane_NS::ClosestPoint;
 
-// distances to two membranes that are the same, in mean edges
+// distances to two membranes that are the same, and what is on the surface and so on its outer side, in mean
+// edges
 static constexpr double SAME = 1.0e-6;
 
 // the phase of a spring in a step, omega dt, or without inertia its rate times dt: chosen, and where the
@@ -153,7 +154,7 @@ void FixHDBind::bind_free_atoms()
     double *x = atom->x[i];
     const auto found = search.find(Vector3d::Map(x));
     const ClosestPoint &closest = found.closest;
-    site.leaflet = leaflet ? leaflet : closest.distance < 0.0 ? -1 : 1;
+    site.leaflet = leaflet ? leaflet : closest.distance < -SAME * edge ? -1 : 1;
     const double off = height * site.leaflet - closest.distance;
     if (std::fabs(off) > most)
       error->one(FLERR,

@@ -42,6 +42,7 @@ class HelfrichModel : protected Pointers {
   bool has_coefficients(int type) const { return bending->acts_on(type); }
   /// kc by type, from 1.
   std::vector<double> bending_moduli() const { return bending->moduli(); }
+  double spontaneous_curvature(int type) const { return bending->spontaneous_curvature(type); }
 
   // === Life cycle
 

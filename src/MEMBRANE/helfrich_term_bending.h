@@ -40,6 +40,8 @@ class HelfrichTermBending : public TermWith<BendingCoefficients> {
   void tally(const HelfrichScene &, HelfrichTally &) const override;
   /// kc by type, from 1.
   std::vector<double> moduli() const;
+  /// c0 by type.
+  double spontaneous_curvature(int type) const { return by_type[type].c0; }
 
  protected:
   int read(const HelfrichWords &, BendingCoefficients &) const override;
