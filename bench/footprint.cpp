@@ -45,7 +45,8 @@ double processor_time()
 
 struct Particle {
   SurfacePoint foot;
-  Vector3d x, director;
+  Vector3d x;
+  Director director;
 };
 
 double checksum = 0.0;    // so that nothing is left out
@@ -85,8 +86,9 @@ void measure(const char *title, TriangleMesh mesh)
   for (int i = 0; i < topology.num_vertices(); ++i) {
     const double u = random(), v = random() * (1.0 - u);
     const SurfacePoint foot = {static_cast<int>(random() * topology.num_faces()), u, v};
-    particles.push_back(
-        {foot, surface.evaluate<0>(foot).position(), surface.evaluate<1>(foot).du()});
+    particles.push_back({foot,
+                         surface.evaluate<0>(foot).position(),
+                         {surface.evaluate<1>(foot).du(), Vector3d::Zero()}});
   }
   PatchRules fine(Quadrature::TWELVE);
   Footprints reference(surface, fine);

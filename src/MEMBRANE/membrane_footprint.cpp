@@ -102,14 +102,22 @@ void Footprints::Point::forget()
 
 /* ---------------------------------------------------------------------- */
 
-Vector3d Membrane_NS::carry_director(const Vector3d &director, const Vector3d &normal)
+Director Membrane_NS::carry(const Director &director, const Vector3d &normal)
 {
-  const Vector3d along = director - director.dot(normal) / normal.squaredNorm() * normal;
+  Vector3d t = director.along;
+  if (!director.normal.isZero(0.0)) {
+    const double cosine = 1.0 + director.normal.dot(normal);
+    if (!(cosine > 1.0e-6))
+      throw MeshError("the membrane under a bound particle has turned over within a step: "
+                      "use a smaller timestep");
+    t -= normal.dot(t) / cosine * (director.normal + normal);
+  }
+  const Vector3d along = t - t.dot(normal) * normal;
   const double length = along.norm();
-  if (!(length > 1.0e-6 * director.norm()))
+  if (!(length > 1.0e-6 * t.norm()))
     throw MeshError("the director of a bound particle is along the normal of the membrane: "
                     "give it one along the surface");
-  return along / length;
+  return {along / length, normal};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -289,17 +297,18 @@ FootprintAverage Footprints::average(const Vector3d &x, const SurfacePoint &foot
 }
 
 /* ----------------------------------------------------------------------
-   With w_k = A_k W_k, c = 2Hbar = sum w_k tr S_k / sum w_k, m = sum w_k n_k, nbar = m/|m|, and the unit
-   vector t along the director's part across nbar:
+   With w_k = A_k W_k, c = 2Hbar = sum w_k tr S_k / sum w_k, m = sum w_k n_k, nbar = m/|m|, and t the
+   director, which stands for its part across nbar, of length 1:
      c_t = sum w_k tau_k.S_k.tau_k / sum w_k,  tau_k = t - beta_k nbar,
      beta_k = (n_k.t)/(1 + nbar.n_k),  c_s = c - c_t.
    First the derivatives by c and c_t, then by t and nbar, then by what the surface does at the points.
 ------------------------------------------------------------------------- */
 
 FootprintForces Footprints::add(const CurvatureCoupling &particle, const Vector3d &x,
-                                const SurfacePoint &foot, const Vector3d &director)
+                                const SurfacePoint &foot, const Director &director)
 {
   FootprintForces out;
+  out.director = director;
   const bool directed = particle.has_director();
   const Sums sums = look(x, foot, particle.radius, directed);
   if (!(sums.area > 0.0)) return out;
@@ -313,7 +322,8 @@ FootprintForces Footprints::add(const CurvatureCoupling &particle, const Vector3
   Vector3d nbar = Vector3d::Zero(), t = nbar, by_sum = nbar;    // by_sum: by m
   if (directed) {
     nbar = sums.normal.normalized();
-    t = carry_director(director, nbar);
+    out.director = carry(director, nbar);
+    t = out.director.along;
     double along = 0.0;
     Vector3d by_t = Vector3d::Zero(), by_nbar = by_t;    // of c_t
     for (const Near &near : near_) {
@@ -332,13 +342,11 @@ FootprintForces Footprints::add(const CurvatureCoupling &particle, const Vector3
     by_along = particle.area * (particle.k_par * too_bent - particle.k_perp * too_wide);
     by_mean += particle.k_perp * too_wide;
 
-    const double length = (director - director.dot(nbar) * nbar).norm();
-    const Vector3d by_part = by_along / length * (by_t - by_t.dot(t) * t);
-    by_nbar = by_along * by_nbar - director.dot(nbar) * by_part - by_part.dot(nbar) * director;
+    const Vector3d by_part = by_along * (by_t - by_t.dot(t) * t);
+    by_nbar = by_along * by_nbar - by_part.dot(nbar) * t;
     by_sum = (by_nbar - by_nbar.dot(nbar) * nbar) / sums.normal.norm();
     out.along = along;
     out.across = mean - along;
-    out.normal = nbar;
     out.director_force = by_part.dot(nbar) * nbar - by_part;
   }
   out.energy = particle.area * energy;

@@ -41,6 +41,18 @@ struct CurvatureCoupling {
   bool has_director() const { return k_par != 0.0 || k_perp != 0.0; }
 };
 
+/** A direction in the surface: the vector t in space, of length 1, and the normal nbar of the footprint where
+    it was last, across which it is. Without a normal (zero) it is any vector, to be projected. */
+struct Director {
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+/** Carries a director to where the normal is another: turned by the smallest rotation that does it, in small
+    steps parallel transport; or, if it has no normal, projected. Of length 1. MeshError for one along the
+    normal (to 1e-6), or a normal that has turned over. */
+Director carry(const Director &director, const Eigen::Vector3d &normal);
+
 /** The surface under a particle: means over the quadrature points r_k within rho of its place x, with
     the weights A_k W_k, W_k = (1 - |x - r_k|^2/rho^2)^3. All zero if there is none. */
 struct FootprintAverage {
@@ -52,14 +64,14 @@ struct FootprintAverage {
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
 };
 
-/// One particle. All zero if there is no quadrature point in reach.
+/// One particle. All zero, and the director as it was, if there is no quadrature point in reach.
 struct FootprintForces {
   double energy = 0.0;
-  double area = 0.0, curvature = 0.0;                  ///< see FootprintAverage
-  double along = 0.0, across = 0.0;                    ///< c_t and c_s; with a director only
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< nbar; with a director only
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the particle
-  /// Minus the derivative by the director t, across t and nbar: the torque is t x this.
+  double area = 0.0, curvature = 0.0;                 ///< see FootprintAverage
+  double along = 0.0, across = 0.0;                   ///< c_t and c_s
+  Director director;                                  ///< carried to here
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< on the particle
+  /// Minus the derivative by t, in the surface across t; the torque is t x this, about nbar.
   Eigen::Vector3d director_force = Eigen::Vector3d::Zero();
 };
 
@@ -72,9 +84,8 @@ struct FootprintForces {
     that could only be reached from there by leaving the ball by more than that.
 
     Energies are functions of x, control points and director in space alone; of the foot only the face is
-    looked at. Forces are the exact derivatives of these functions, each with the others held. The energy
-    knows a director by its direction in the plane across nbar: to change its length or what it has along
-    nbar, as carry_director() does, costs nothing, so a director may be carried whenever one likes.
+    looked at. A director is carried to the nbar of here first. Then forces are the exact derivatives, with t held
+    in space: that nbar turns away from it by what x and control points do costs nothing to first order.
 
     What is known of a face is kept until the surface moves, so particles that share faces share the cost,
     and forces on control points are worked out once for all particles. Allocates memory only if more faces
@@ -91,11 +102,10 @@ class Footprints {
       periodic direction the footprint and a face on each side are wider than the box. */
   FootprintAverage average(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius);
 
-  /** Energy and forces of a particle. Any periodic image of x will do. Errors as of average(), and
-      MeshError for a director along nbar; without has_director() none is looked at. */
+  /** Energy and forces of a particle. Any periodic image of x will do. Errors of average() and
+      of carry(); without has_director() the director is not looked at. */
   FootprintForces add(const CurvatureCoupling &particle, const Eigen::Vector3d &x,
-                      const SurfacePoint &foot,
-                      const Eigen::Vector3d &director = Eigen::Vector3d::Zero());
+                      const SurfacePoint &foot, const Director &director = {});
 
   /** Hands out the forces on control points by all particles added since update() or since the last
       call: give(face, force) for each face that has any, force[k] on control point k of stencil(face), a
@@ -167,11 +177,6 @@ class Footprints {
   bool look_at_points(const Patch &patch, int face, const Eigen::Vector3d &from, double radius);
   void pull_face(int face);
 };
-
-/** Carries a director to another place: without its part along the normal there, of length 1. In small
-    steps this is parallel transport; with nbar of its footprint for the normal, its energy stays what it
-    is, exactly. MeshError if it is along the normal (to 1e-6). */
-Eigen::Vector3d carry_director(const Eigen::Vector3d &director, const Eigen::Vector3d &normal);
 
 /* ---------------------------------------------------------------------- */
 
