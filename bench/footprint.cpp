@@ -96,8 +96,7 @@ void measure(const char *title, TriangleMesh mesh)
   std::vector<Vector3d> force(topology.num_vertices(), Vector3d::Zero());
   std::printf("%s\n", title);
   for (Quadrature quadrature : {Quadrature::ONE, Quadrature::THREE, Quadrature::SIX}) {
-    PatchRules rules(quadrature);
-    Footprints footprints(surface, rules);
+    Footprints footprints(surface, quadrature);
     double error = 0.0, size = 0.0;
     for (const Particle &p : particles) {
       const double good = reference.average(p.x, p.foot, radius).curvature;

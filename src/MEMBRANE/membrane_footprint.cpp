@@ -122,11 +122,37 @@ Director Membrane_NS::carry(const Director &director, const Vector3d &normal)
 
 /* ---------------------------------------------------------------------- */
 
-Footprints::Footprints(const LimitSurface &surface, PatchRules &rules) :
-    surface_(surface), rules_(rules), patches_(surface.topology().num_faces()),
-    virial_(Matrix3d::Zero())
+Footprints::Footprints(const LimitSurface &surface) :
+    surface_(surface), patches_(surface.topology().num_faces()), virial_(Matrix3d::Zero())
 {
   update();
+}
+
+Footprints::Footprints(const LimitSurface &surface, Quadrature quadrature) : Footprints(surface)
+{
+  triangle_ = triangle_rule(quadrature);
+}
+
+Footprints::Footprints(const LimitSurface &surface, PatchRules &graded) : Footprints(surface)
+{
+  graded_ = &graded;
+}
+
+const PatchRule &Footprints::rule(const Valences &valences)
+{
+  if (graded_) return graded_->get(valences);
+  const auto [entry, fresh] = plain_.try_emplace(valences);
+  PatchRule &rule = entry->second;
+  if (!fresh) return rule;
+  const LimitBasis basis(valences);
+  rule.size = basis.size();
+  rule.npoints = triangle_.size();
+  rule.weight = triangle_.weight;
+  for (int q = 0; q < rule.npoints; ++q) {
+    const LimitBasis::Weights w = basis.evaluate(triangle_.u[q], triangle_.v[q]);
+    rule.rows.insert(rule.rows.end(), w.data(), w.data() + w.size());
+  }
+  return rule;
 }
 
 void Footprints::update()
@@ -154,7 +180,7 @@ Footprints::Patch &Footprints::place(int face)
 {
   Patch &patch = patches_[face];
   if (patch.epoch == epoch_) return patch;
-  if (!patch.rule) patch.rule = &rules_.get(surface_.topology().valences(face));
+  if (!patch.rule) patch.rule = &rule(surface_.topology().valences(face));
   const PatchRule &rule = *patch.rule;
   Lane4 x[MOST_STENCIL];
   surface_.control_points(face, x);
@@ -436,7 +462,9 @@ Matrix3d Footprints::take_forces(std::vector<Vector3d> &force)
 
 double Footprints::memory_usage() const
 {
-  return sizeof(Patch) * patches_.capacity() +
+  double bytes = 0.0;
+  for (const auto &entry : plain_) bytes += sizeof(double) * entry.second.rows.capacity();
+  return bytes + sizeof(Patch) * patches_.capacity() +
       (sizeof(Point) + sizeof(Lane4)) * points_.capacity() +
       sizeof(int) * (queue_.capacity() + reached_.capacity() + touched_.capacity()) +
       sizeof(Near) * near_.capacity();

@@ -17,6 +17,7 @@
 #include "membrane_limit_surface.h"
 #include "membrane_quadrature.h"
 
+#include <map>
 #include <vector>
 
 namespace Membrane_NS {
@@ -92,8 +93,12 @@ struct FootprintForces {
     are in reach than ever before. */
 class Footprints {
  public:
-  /// Both must outlive this; when the topology changes, make another.
-  Footprints(const LimitSurface &surface, PatchRules &rules);
+  /** The same few points on every face, whatever its valences, which is enough for a mean: a graded rule
+      has 10 to 50 times as many on faces that are not regular, and costs as many times more. The surface
+      must outlive this; when its topology changes, make another. */
+  Footprints(const LimitSurface &surface, Quadrature quadrature);
+  /// The points of the energy's own rules. These must outlive this, too.
+  Footprints(const LimitSurface &surface, PatchRules &graded);
 
   /// Call when the surface or its box has moved. Forgets forces that were not taken.
   void update();
@@ -115,7 +120,7 @@ class Footprints {
   /// The same, added to an array [vertices].
   Eigen::Matrix3d take_forces(std::vector<Eigen::Vector3d> &force);
 
-  /// Bytes held; the rules are not counted.
+  /// Bytes held; graded rules are not counted.
   double memory_usage() const;
 
  private:
@@ -160,7 +165,9 @@ class Footprints {
   };
 
   const LimitSurface &surface_;
-  PatchRules &rules_;
+  PatchRules *graded_ = nullptr;
+  TriangleRule triangle_;    // if there are no graded rules
+  std::map<Valences, PatchRule> plain_;
   int epoch_ = 1, visit_ = 0;
   double half_width_;              // of the box
   std::vector<Patch> patches_;     // [faces]
@@ -173,6 +180,8 @@ class Footprints {
   Lane4 force_[MOST_STENCIL];    // on the control points of a face
 
   Sums look(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius, bool directed);
+  Footprints(const LimitSurface &surface);
+  const PatchRule &rule(const Valences &valences);
   Patch &place(int face);
   bool look_at_points(const Patch &patch, int face, const Eigen::Vector3d &from, double radius);
   void pull_face(int face);

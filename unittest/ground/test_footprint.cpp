@@ -51,8 +51,13 @@ CurvatureCoupling anisotropic(double radius)
 /// A surface with particles.
 struct FootprintScene : SurfaceScene {
   Footprints footprints;
-  explicit FootprintScene(const TriangleMesh &m, Quadrature quadrature = RULE) :
-      SurfaceScene(m), footprints(surface, shared_rules(quadrature))
+  explicit FootprintScene(const TriangleMesh &m) :
+      SurfaceScene(m), footprints(surface, shared_rules(RULE))
+  {
+  }
+  /// With the same few points on every face.
+  FootprintScene(const TriangleMesh &m, Quadrature plain) :
+      SurfaceScene(m), footprints(surface, plain)
   {
   }
   void move(const Points &points, const Matrix3d &lattice)
@@ -120,7 +125,7 @@ void expect_forces_are_derivatives(const CurvatureCoupling &particle)
   double worst[3] = {};
   std::set<int> valences;
   for (const TriangleMesh &mesh : force_meshes()) {
-    FootprintScene scene(mesh);
+    FootprintScene scene(mesh, RULE);
     Random random(41);
     for (const SurfacePoint &foot : feet_on(scene, how_many(3), random)) {
       for (int k = 0; k < 3; ++k)
@@ -506,6 +511,23 @@ TEST(Footprint, OnASphereItIsTheCurvatureOfTheSphere)
     before = worst;
   }
   EXPECT_LT(before, 3.0e-4);
+}
+
+TEST(Footprint, AFewPointsOnEveryFaceAreEnoughForAMean)
+{
+  double worst = 0.0;
+  const TriangleMesh mesh = perturbed(icosphere(3, 3.0), 0.03, 4);
+  FootprintScene plain(mesh, RULE), graded(mesh);
+  Random random(53);
+  for (const SurfacePoint &foot : feet_on(plain, how_many(100), random)) {
+    const Vector3d x = plain.position(foot);
+    const FootprintAverage few = plain.footprints.average(x, foot, 0.5);
+    const FootprintAverage many = graded.footprints.average(x, foot, 0.5);
+    worst = std::max(worst, std::fabs(few.curvature / many.curvature - 1.0));
+    EXPECT_NEAR(few.area, many.area, 0.01 * many.area);
+  }
+  RecordProperty("worst", scientific(worst));
+  EXPECT_LT(worst, 0.005);
 }
 
 TEST(Footprint, OnATubeTheDirectorTellsTheAxisFromTheCircumference)
