@@ -17,6 +17,7 @@
 #include "membrane_limit_surface.h"
 #include "membrane_quadrature.h"
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -85,8 +86,8 @@ struct FootprintForces {
     that could only be reached from there by leaving the ball by more than that.
 
     Energies are functions of x, control points and director in space alone; of the foot only the face is
-    looked at. A director is carried to the nbar of here first. Then forces are the exact derivatives, with t held
-    in space: that nbar turns away from it by what x and control points do costs nothing to first order.
+    looked at. A director is carried to the nbar of here first. Then forces are the exact derivatives, with
+    t held in space: that nbar leaves it behind as x and control points move costs nothing to first order.
 
     What is known of a face is kept until the surface moves, so particles that share faces share the cost,
     and forces on control points are worked out once for all particles. Allocates memory only if more faces
@@ -148,7 +149,8 @@ class Footprints {
   // a face: its rule, where its points begin, a sphere around it
   struct Patch {
     const PatchRule *rule = nullptr;
-    int epoch = 0, visit = 0, first = 0;
+    std::int64_t epoch = 0, visit = 0;
+    int first = 0;
     bool touched = false;
     Eigen::Vector3d center;
     double radius;
@@ -168,10 +170,10 @@ class Footprints {
   PatchRules *graded_ = nullptr;
   TriangleRule triangle_;    // if there are no graded rules
   std::map<Valences, PatchRule> plain_;
-  int epoch_ = 1, visit_ = 0;
-  double half_width_;              // of the box
-  std::vector<Patch> patches_;     // [faces]
-  std::vector<Lane4> position_;    // of points
+  std::int64_t epoch_ = 1, visit_ = 0;    // of the surface; of particles
+  double half_width_;                     // of the box
+  std::vector<Patch> patches_;            // [faces]
+  std::vector<Lane4> position_;           // of points
   std::vector<Point> points_;
   std::vector<int> queue_, reached_;    // faces of a particle: looked at, with points in reach
   std::vector<int> touched_;            // faces with forces to be taken
