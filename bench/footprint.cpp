@@ -45,7 +45,8 @@ double processor_time()
 
 struct Particle {
   SurfacePoint foot;
-  Vector3d x, director;
+  Vector3d x;
+  Director director;
 };
 
 double checksum = 0.0;    // so that nothing is left out
@@ -85,8 +86,9 @@ void measure(const char *title, TriangleMesh mesh)
   for (int i = 0; i < topology.num_vertices(); ++i) {
     const double u = random(), v = random() * (1.0 - u);
     const SurfacePoint foot = {static_cast<int>(random() * topology.num_faces()), u, v};
-    particles.push_back(
-        {foot, surface.evaluate<0>(foot).position(), surface.evaluate<1>(foot).du()});
+    particles.push_back({foot,
+                         surface.evaluate<0>(foot).position(),
+                         {surface.evaluate<1>(foot).du(), Vector3d::Zero()}});
   }
   PatchRules fine(Quadrature::TWELVE);
   Footprints reference(surface, fine);
@@ -94,8 +96,7 @@ void measure(const char *title, TriangleMesh mesh)
   std::vector<Vector3d> force(topology.num_vertices(), Vector3d::Zero());
   std::printf("%s\n", title);
   for (Quadrature quadrature : {Quadrature::ONE, Quadrature::THREE, Quadrature::SIX}) {
-    PatchRules rules(quadrature);
-    Footprints footprints(surface, rules);
+    Footprints footprints(surface, quadrature);
     double error = 0.0, size = 0.0;
     for (const Particle &p : particles) {
       const double good = reference.average(p.x, p.foot, radius).curvature;

@@ -102,23 +102,57 @@ void Footprints::Point::forget()
 
 /* ---------------------------------------------------------------------- */
 
-Vector3d Membrane_NS::carry_director(const Vector3d &director, const Vector3d &normal)
+Director Membrane_NS::carry(const Director &director, const Vector3d &normal)
 {
-  const Vector3d along = director - director.dot(normal) / normal.squaredNorm() * normal;
+  Vector3d t = director.along;
+  if (!director.normal.isZero(0.0)) {
+    const double cosine = 1.0 + director.normal.dot(normal);
+    if (!(cosine > 1.0e-6))
+      throw MeshError("the membrane under a bound particle has turned over within a step: "
+                      "use a smaller timestep");
+    t -= normal.dot(t) / cosine * (director.normal + normal);
+  }
+  const Vector3d along = t - t.dot(normal) * normal;
   const double length = along.norm();
-  if (!(length > 1.0e-6 * director.norm()))
+  if (!(length > 1.0e-6 * t.norm()))
     throw MeshError("the director of a bound particle is along the normal of the membrane: "
                     "give it one along the surface");
-  return along / length;
+  return {along / length, normal};
 }
 
 /* ---------------------------------------------------------------------- */
 
-Footprints::Footprints(const LimitSurface &surface, PatchRules &rules) :
-    surface_(surface), rules_(rules), patches_(surface.topology().num_faces()),
-    virial_(Matrix3d::Zero())
+Footprints::Footprints(const LimitSurface &surface) :
+    surface_(surface), patches_(surface.topology().num_faces()), virial_(Matrix3d::Zero())
 {
   update();
+}
+
+Footprints::Footprints(const LimitSurface &surface, Quadrature quadrature) : Footprints(surface)
+{
+  triangle_ = triangle_rule(quadrature);
+}
+
+Footprints::Footprints(const LimitSurface &surface, PatchRules &graded) : Footprints(surface)
+{
+  graded_ = &graded;
+}
+
+const PatchRule &Footprints::rule(const Valences &valences)
+{
+  if (graded_) return graded_->get(valences);
+  const auto [entry, fresh] = plain_.try_emplace(valences);
+  PatchRule &rule = entry->second;
+  if (!fresh) return rule;
+  const LimitBasis basis(valences);
+  rule.size = basis.size();
+  rule.npoints = triangle_.size();
+  rule.weight = triangle_.weight;
+  for (int q = 0; q < rule.npoints; ++q) {
+    const LimitBasis::Weights w = basis.evaluate(triangle_.u[q], triangle_.v[q]);
+    rule.rows.insert(rule.rows.end(), w.data(), w.data() + w.size());
+  }
+  return rule;
 }
 
 void Footprints::update()
@@ -146,7 +180,7 @@ Footprints::Patch &Footprints::place(int face)
 {
   Patch &patch = patches_[face];
   if (patch.epoch == epoch_) return patch;
-  if (!patch.rule) patch.rule = &rules_.get(surface_.topology().valences(face));
+  if (!patch.rule) patch.rule = &rule(surface_.topology().valences(face));
   const PatchRule &rule = *patch.rule;
   Lane4 x[MOST_STENCIL];
   surface_.control_points(face, x);
@@ -289,17 +323,18 @@ FootprintAverage Footprints::average(const Vector3d &x, const SurfacePoint &foot
 }
 
 /* ----------------------------------------------------------------------
-   With w_k = A_k W_k, c = 2Hbar = sum w_k tr S_k / sum w_k, m = sum w_k n_k, nbar = m/|m|, and the unit
-   vector t along the director's part across nbar:
+   With w_k = A_k W_k, c = 2Hbar = sum w_k tr S_k / sum w_k, m = sum w_k n_k, nbar = m/|m|, and t the
+   director, which stands for its part across nbar, of length 1:
      c_t = sum w_k tau_k.S_k.tau_k / sum w_k,  tau_k = t - beta_k nbar,
      beta_k = (n_k.t)/(1 + nbar.n_k),  c_s = c - c_t.
    First the derivatives by c and c_t, then by t and nbar, then by what the surface does at the points.
 ------------------------------------------------------------------------- */
 
 FootprintForces Footprints::add(const CurvatureCoupling &particle, const Vector3d &x,
-                                const SurfacePoint &foot, const Vector3d &director)
+                                const SurfacePoint &foot, const Director &director)
 {
   FootprintForces out;
+  out.director = director;
   const bool directed = particle.has_director();
   const Sums sums = look(x, foot, particle.radius, directed);
   if (!(sums.area > 0.0)) return out;
@@ -313,7 +348,8 @@ FootprintForces Footprints::add(const CurvatureCoupling &particle, const Vector3
   Vector3d nbar = Vector3d::Zero(), t = nbar, by_sum = nbar;    // by_sum: by m
   if (directed) {
     nbar = sums.normal.normalized();
-    t = carry_director(director, nbar);
+    out.director = carry(director, nbar);
+    t = out.director.along;
     double along = 0.0;
     Vector3d by_t = Vector3d::Zero(), by_nbar = by_t;    // of c_t
     for (const Near &near : near_) {
@@ -332,13 +368,11 @@ FootprintForces Footprints::add(const CurvatureCoupling &particle, const Vector3
     by_along = particle.area * (particle.k_par * too_bent - particle.k_perp * too_wide);
     by_mean += particle.k_perp * too_wide;
 
-    const double length = (director - director.dot(nbar) * nbar).norm();
-    const Vector3d by_part = by_along / length * (by_t - by_t.dot(t) * t);
-    by_nbar = by_along * by_nbar - director.dot(nbar) * by_part - by_part.dot(nbar) * director;
+    const Vector3d by_part = by_along * (by_t - by_t.dot(t) * t);
+    by_nbar = by_along * by_nbar - by_part.dot(nbar) * t;
     by_sum = (by_nbar - by_nbar.dot(nbar) * nbar) / sums.normal.norm();
     out.along = along;
     out.across = mean - along;
-    out.normal = nbar;
     out.director_force = by_part.dot(nbar) * nbar - by_part;
   }
   out.energy = particle.area * energy;
@@ -428,7 +462,9 @@ Matrix3d Footprints::take_forces(std::vector<Vector3d> &force)
 
 double Footprints::memory_usage() const
 {
-  return sizeof(Patch) * patches_.capacity() +
+  double bytes = 0.0;
+  for (const auto &entry : plain_) bytes += sizeof(double) * entry.second.rows.capacity();
+  return bytes + sizeof(Patch) * patches_.capacity() +
       (sizeof(Point) + sizeof(Lane4)) * points_.capacity() +
       sizeof(int) * (queue_.capacity() + reached_.capacity() + touched_.capacity()) +
       sizeof(Near) * near_.capacity();

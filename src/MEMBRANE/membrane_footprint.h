@@ -17,6 +17,8 @@
 #include "membrane_limit_surface.h"
 #include "membrane_quadrature.h"
 
+#include <cstdint>
+#include <map>
 #include <vector>
 
 namespace Membrane_NS {
@@ -41,6 +43,18 @@ struct CurvatureCoupling {
   bool has_director() const { return k_par != 0.0 || k_perp != 0.0; }
 };
 
+/** A direction in the surface: the vector t in space, of length 1, and the normal nbar of the footprint where
+    it was last, across which it is. Without a normal (zero) it is any vector, to be projected. */
+struct Director {
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+/** Carries a director to where the normal is another: turned by the smallest rotation that does it, in small
+    steps parallel transport; or, if it has no normal, projected. Of length 1. MeshError for one along the
+    normal (to 1e-6), or a normal that has turned over. */
+Director carry(const Director &director, const Eigen::Vector3d &normal);
+
 /** The surface under a particle: means over the quadrature points r_k within rho of its place x, with
     the weights A_k W_k, W_k = (1 - |x - r_k|^2/rho^2)^3. All zero if there is none. */
 struct FootprintAverage {
@@ -52,14 +66,14 @@ struct FootprintAverage {
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
 };
 
-/// One particle. All zero if there is no quadrature point in reach.
+/// One particle. All zero, and the director as it was, if there is no quadrature point in reach.
 struct FootprintForces {
   double energy = 0.0;
-  double area = 0.0, curvature = 0.0;                  ///< see FootprintAverage
-  double along = 0.0, across = 0.0;                    ///< c_t and c_s; with a director only
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< nbar; with a director only
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the particle
-  /// Minus the derivative by the director t, across t and nbar: the torque is t x this.
+  double area = 0.0, curvature = 0.0;                 ///< see FootprintAverage
+  double along = 0.0, across = 0.0;                   ///< c_t and c_s
+  Director director;                                  ///< carried to here
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< on the particle
+  /// Minus the derivative by t, in the surface across t; the torque is t x this, about nbar.
   Eigen::Vector3d director_force = Eigen::Vector3d::Zero();
 };
 
@@ -72,17 +86,20 @@ struct FootprintForces {
     that could only be reached from there by leaving the ball by more than that.
 
     Energies are functions of x, control points and director in space alone; of the foot only the face is
-    looked at. Forces are the exact derivatives of these functions, each with the others held. The energy
-    knows a director by its direction in the plane across nbar: to change its length or what it has along
-    nbar, as carry_director() does, costs nothing, so a director may be carried whenever one likes.
+    looked at. A director is carried to the nbar of here first. Then forces are the exact derivatives, with
+    t held in space: that nbar leaves it behind as x and control points move costs nothing to first order.
 
     What is known of a face is kept until the surface moves, so particles that share faces share the cost,
     and forces on control points are worked out once for all particles. Allocates memory only if more faces
     are in reach than ever before. */
 class Footprints {
  public:
-  /// Both must outlive this; when the topology changes, make another.
-  Footprints(const LimitSurface &surface, PatchRules &rules);
+  /** The same few points on every face, whatever its valences, which is enough for a mean: a graded rule
+      has 10 to 50 times as many on faces that are not regular, and costs as many times more. The surface
+      must outlive this; when its topology changes, make another. */
+  Footprints(const LimitSurface &surface, Quadrature quadrature);
+  /// The points of the energy's own rules. These must outlive this, too.
+  Footprints(const LimitSurface &surface, PatchRules &graded);
 
   /// Call when the surface or its box has moved. Forgets forces that were not taken.
   void update();
@@ -91,11 +108,10 @@ class Footprints {
       periodic direction the footprint and a face on each side are wider than the box. */
   FootprintAverage average(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius);
 
-  /** Energy and forces of a particle. Any periodic image of x will do. Errors as of average(), and
-      MeshError for a director along nbar; without has_director() none is looked at. */
+  /** Energy and forces of a particle. Any periodic image of x will do. Errors of average() and
+      of carry(); without has_director() the director is not looked at. */
   FootprintForces add(const CurvatureCoupling &particle, const Eigen::Vector3d &x,
-                      const SurfacePoint &foot,
-                      const Eigen::Vector3d &director = Eigen::Vector3d::Zero());
+                      const SurfacePoint &foot, const Director &director = {});
 
   /** Hands out the forces on control points by all particles added since update() or since the last
       call: give(face, force) for each face that has any, force[k] on control point k of stencil(face), a
@@ -105,7 +121,7 @@ class Footprints {
   /// The same, added to an array [vertices].
   Eigen::Matrix3d take_forces(std::vector<Eigen::Vector3d> &force);
 
-  /// Bytes held; the rules are not counted.
+  /// Bytes held; graded rules are not counted.
   double memory_usage() const;
 
  private:
@@ -133,7 +149,8 @@ class Footprints {
   // a face: its rule, where its points begin, a sphere around it
   struct Patch {
     const PatchRule *rule = nullptr;
-    int epoch = 0, visit = 0, first = 0;
+    std::int64_t epoch = 0, visit = 0;
+    int first = 0;
     bool touched = false;
     Eigen::Vector3d center;
     double radius;
@@ -150,11 +167,13 @@ class Footprints {
   };
 
   const LimitSurface &surface_;
-  PatchRules &rules_;
-  int epoch_ = 1, visit_ = 0;
-  double half_width_;              // of the box
-  std::vector<Patch> patches_;     // [faces]
-  std::vector<Lane4> position_;    // of points
+  PatchRules *graded_ = nullptr;
+  TriangleRule triangle_;    // if there are no graded rules
+  std::map<Valences, PatchRule> plain_;
+  std::int64_t epoch_ = 1, visit_ = 0;    // of the surface; of particles
+  double half_width_;                     // of the box
+  std::vector<Patch> patches_;            // [faces]
+  std::vector<Lane4> position_;           // of points
   std::vector<Point> points_;
   std::vector<int> queue_, reached_;    // faces of a particle: looked at, with points in reach
   std::vector<int> touched_;            // faces with forces to be taken
@@ -163,15 +182,12 @@ class Footprints {
   Lane4 force_[MOST_STENCIL];    // on the control points of a face
 
   Sums look(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius, bool directed);
+  Footprints(const LimitSurface &surface);
+  const PatchRule &rule(const Valences &valences);
   Patch &place(int face);
   bool look_at_points(const Patch &patch, int face, const Eigen::Vector3d &from, double radius);
   void pull_face(int face);
 };
-
-/** Carries a director to another place: without its part along the normal there, of length 1. In small
-    steps this is parallel transport; with nbar of its footprint for the normal, its energy stays what it
-    is, exactly. MeshError if it is along the normal (to 1e-6). */
-Eigen::Vector3d carry_director(const Eigen::Vector3d &director, const Eigen::Vector3d &normal);
 
 /* ---------------------------------------------------------------------- */
 
