@@ -18,6 +18,7 @@
 #include "bound_curvature.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "helfrich_model.h"
@@ -31,6 +32,9 @@ using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 using Membrane_NS::CurvatureCoupling;
 using Membrane_NS::MeshError;
+
+// footprints of area a and radius rho that leave the energy bounded have a (1 - kp/kc) less than this times rho^2
+static constexpr double BOUNDED = 7.0 / 16.0 * 3.14159265358979323846;
 
 /* ---------------------------------------------------------------------- */
 
@@ -90,7 +94,7 @@ void BoundCurvature::init(const DistributedMesh &mesh, int membranebit)
     error->all(FLERR, "Fix hd/bind footprint needs pair_style helfrich: a footprint stands in place of the bare "
                       "membrane");
   auto *model = static_cast<HelfrichModel *>(pair->extract("model", dim));
-  rules = std::make_unique<Membrane_NS::PatchRules>(model->quadrature());
+  quadrature = model->quadrature();
   footprints.reset();
 
   const auto moduli = model->bending_moduli();
@@ -123,6 +127,13 @@ void BoundCurvature::init(const DistributedMesh &mesh, int membranebit)
   for (auto &[type, c] : coupling) {
     c.kc = moduli[first];
     c.c0 = model->spontaneous_curvature(first);
+    const double along = c.k_par + c.k_perp > 0.0 ? c.k_par * c.k_perp / (c.k_par + c.k_perp) : 0.0;
+    const double lacking = c.area * (1.0 - (c.kp + along) / c.kc);
+    if (lacking > BOUNDED * c.radius * c.radius && comm->me == 0)
+      error->warning(FLERR,
+                     "Fix hd/bind footprint of type {} is softer than the membrane over an area that its radius {:.4g} "
+                     "does not cover: the membrane may bend without end; {:.4g} is always enough",
+                     type, c.radius, std::sqrt(lacking / BOUNDED));
     if (c.area > smallest)
       error->all(FLERR, "Fix hd/bind footprint of type {}: the area {:.4g} is larger than that of a membrane, {:.4g}",
                  type, c.area, smallest);
@@ -138,7 +149,7 @@ void BoundCurvature::set_surface(LocalSurface *on)
 void BoundCurvature::update()
 {
   if (!any()) return;
-  if (!footprints) footprints = std::make_unique<Membrane_NS::Footprints>(*surface, *rules);
+  if (!footprints) footprints = std::make_unique<Membrane_NS::Footprints>(*surface, quadrature);
   footprints->update();
 }
 
@@ -156,9 +167,12 @@ double BoundCurvature::add(int i, BoundSite &site, double *f, Vector3d &turn)
   c.c_perp *= site.leaflet;
   Membrane_NS::FootprintForces forces;
   try {
-    forces = footprints->add(c, Vector3d::Map(atom->x[i]), site.point, Vector3d::Map(site.director));
-    if (c.has_director())
-      Vector3d::Map(site.director) = Membrane_NS::carry_director(Vector3d::Map(site.director), forces.normal);
+    const Membrane_NS::Director director = {Vector3d::Map(site.director), Vector3d::Map(site.normal)};
+    forces = footprints->add(c, Vector3d::Map(atom->x[i]), site.point, director);
+    if (c.has_director()) {
+      Vector3d::Map(site.director) = forces.director.along;
+      Vector3d::Map(site.normal) = forces.director.normal;
+    }
   } catch (const MeshError &err) {
     error->one(FLERR, "Fix hd/bind: atom {}: {}", atom->tag[i], err.what());
   }

@@ -53,7 +53,7 @@ class BoundCurvature : protected Pointers {
  private:
   std::map<int, Membrane_NS::CurvatureCoupling> coupling;    // by type
   LocalSurface *surface = nullptr;
-  std::unique_ptr<Membrane_NS::PatchRules> rules;
+  Membrane_NS::Quadrature quadrature = Membrane_NS::Quadrature::SIX;    // as that of the energy
   std::unique_ptr<Membrane_NS::Footprints> footprints;
 };
 

@@ -35,6 +35,8 @@ int BoundSites::pack(int i, double *buf) const
   buf[n++] = site.distance;
   buf[n++] = site.leaflet;
   for (double d : site.director) buf[n++] = d;
+  for (double d : site.normal) buf[n++] = d;
+  buf[n++] = site.pull;
   return n;
 }
 
@@ -49,6 +51,8 @@ int BoundSites::unpack(int i, const double *buf)
   site.distance = buf[n++];
   site.leaflet = static_cast<int>(buf[n++]);
   for (double &d : site.director) d = buf[n++];
+  for (double &d : site.normal) d = buf[n++];
+  site.pull = buf[n++];
   return n;
 }
 

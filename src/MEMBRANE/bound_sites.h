@@ -28,7 +28,9 @@ struct BoundSite {
   double distance = 0.0;                 ///< from it, positive on the outer side
   int leaflet = 0;                       ///< 1 outer, -1 inner
   double director[3] = {0.0, 0.0, 0.0};  ///< of length 1, along the surface; 0 if it has none
+  double normal[3] = {0.0, 0.0, 0.0};    ///< of the footprint where the director is along the surface
 
+  double pull = 0.0;                     ///< of a rigid hold, the force along the normal in this step
   double curvature = 0.0;                ///< 2Hbar of its footprint in the last step; does not follow the atom
 
   bool bound() const { return corner[0] != 0; }
@@ -45,7 +47,7 @@ class BoundSites {
   void copy(int from, int to) { sites[to] = sites[from]; }
   void clear(int i) { sites[i] = BoundSite(); }
 
-  static constexpr int SIZE = 11;    ///< numbers of a site
+  static constexpr int SIZE = 15;    ///< numbers of a site
   int pack(int i, double *buf) const;
   int unpack(int i, const double *buf);
   double memory_usage() const { return sizeof(BoundSite) * sites.capacity(); }

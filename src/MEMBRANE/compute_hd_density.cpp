@@ -19,7 +19,7 @@
 
 #include "atom.h"
 #include "error.h"
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 #include "memory.h"
 #include "update.h"
 
@@ -66,7 +66,7 @@ ComputeHDDensity::~ComputeHDDensity()
 
 void ComputeHDDensity::init()
 {
-  bind = FixHDBind::named(lmp, bind_id, "Compute hd/density");
+  bind = FixHDBound::named(lmp, bind_id, "Compute hd/density");
 }
 
 // of what is beyond the ends, the first and last

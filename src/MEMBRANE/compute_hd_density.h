@@ -37,7 +37,7 @@ class ComputeHDDensity : public Compute {
 
  private:
   std::string bind_id;
-  class FixHDBind *bind;
+  class FixHDBound *bind;
   int bins;
   double lowest, highest;
   std::vector<double> mine, all;    // [bins][3]: area, atoms of the outer and inner leaflet

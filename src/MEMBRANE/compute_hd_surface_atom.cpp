@@ -19,7 +19,7 @@
 
 #include "atom.h"
 #include "error.h"
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 #include "memory.h"
 #include "update.h"
 
@@ -48,7 +48,7 @@ ComputeHDSurfaceAtom::~ComputeHDSurfaceAtom()
 
 void ComputeHDSurfaceAtom::init()
 {
-  bind = FixHDBind::named(lmp, bind_id, "Compute hd/surface/atom");
+  bind = FixHDBound::named(lmp, bind_id, "Compute hd/surface/atom");
 }
 
 void ComputeHDSurfaceAtom::compute_peratom()

@@ -37,7 +37,7 @@ class ComputeHDSurfaceAtom : public Compute {
 
  private:
   std::string bind_id;
-  class FixHDBind *bind;
+  class FixHDBound *bind;
   int nmax;
 };
 

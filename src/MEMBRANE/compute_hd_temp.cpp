@@ -21,7 +21,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 #include "force.h"
 #include "modify.h"
 #include "update.h"
@@ -70,7 +70,7 @@ void ComputeHDTemp::init()
   mass.init(true);
   binds.clear();
   for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {
-    auto *bind = dynamic_cast<FixHDBind *>(fix);
+    auto *bind = dynamic_cast<FixHDBound *>(fix);
     if (!bind->is_overdamped()) binds.push_back(bind);
   }
 }
@@ -90,7 +90,7 @@ void ComputeHDTemp::dof_compute()
 {
   adjust_dof_fix();
   bigint mine = 0;
-  for (const FixHDBind *bind : binds)
+  for (const FixHDBound *bind : binds)
     for (int i = 0; i < atom->nlocal; ++i)
       if (atom->mask[i] & groupbit && atom->mask[i] & bind->groupbit) ++mine;
   MPI_Allreduce(&mine, &bound, 1, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -107,7 +107,7 @@ void ComputeHDTemp::kinetic(double *t)
   mass.kinetic(t);
   if (bound == 0) return;
   double mine[6] = {}, all[6];
-  for (const FixHDBind *bind : binds)
+  for (const FixHDBound *bind : binds)
     for (int i = 0; i < atom->nlocal; ++i) {
       if (!(atom->mask[i] & groupbit && atom->mask[i] & bind->groupbit)) continue;
       const double m = bind->mass_of(i), *v = atom->v[i];

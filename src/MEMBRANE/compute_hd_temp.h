@@ -43,7 +43,7 @@ class ComputeHDTemp : public Compute {
   HDMass mass;
   bool settings_given;
   int lost;    // degrees of freedom that the mass does not have
-  std::vector<class FixHDBind *> binds;
+  std::vector<class FixHDBound *> binds;
   bigint bound;    // atoms of the group that they hold and others move
 
   void dof_compute();

@@ -22,7 +22,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "group.h"
@@ -177,7 +177,7 @@ double HDTimestep::largest_of_springs(bool overdamped) const
 {
   double sum = 0.0;
   for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {
-    auto *bind = dynamic_cast<FixHDBind *>(fix);
+    auto *bind = dynamic_cast<FixHDBound *>(fix);
     if (bind->follows_timestep()) continue;
     bind->update_feet();
     sum += bind->stiffness() *

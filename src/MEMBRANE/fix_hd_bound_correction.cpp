@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -45,14 +45,14 @@ using Membrane_NS::Derivative;
    (doc/src/Derivation_bound.rst). Solutions with M: one for three particles.
 ------------------------------------------------------------------------- */
 
-double FixHDBind::bath_kT() const
+double FixHDBound::bath_kT() const
 {
   for (const FixHDBase *integrator : integrators(false))
     if (integrator->sampled_kT() > 0.0) return integrator->sampled_kT();
   return 0.0;
 }
 
-void FixHDBind::correct_metric()
+void FixHDBound::correct_metric()
 {
   const double kT = bath_kT();
 

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -39,7 +39,7 @@ static constexpr double ENOUGH = 1.0e-3;
 
 // === What one particle does to another through the membrane
 
-void FixHDBind::clear_work()
+void FixHDBound::clear_work()
 {
   if (atom->nlocal + atom->nghost) std::fill_n(work[0], 3 * (atom->nlocal + atom->nghost), 0.0);
 }
@@ -48,7 +48,7 @@ void FixHDBind::clear_work()
    to owned control points: sum over particles a of c_a n_a y_a, into work
 ------------------------------------------------------------------------- */
 
-void FixHDBind::spread(const std::vector<double> &y)
+void FixHDBound::spread(const std::vector<double> &y)
 {
   clear_work();
   for (size_t a = 0; a < feet.size(); ++a) {
@@ -61,7 +61,7 @@ void FixHDBind::spread(const std::vector<double> &y)
   comm->reverse_comm(this);
 }
 
-std::vector<FixHDBase *> FixHDBind::integrators(bool overdamped) const
+std::vector<FixHDBase *> FixHDBound::integrators(bool overdamped) const
 {
   std::vector<FixHDBase *> found;
   for (auto &fix : modify->get_fix_list())
@@ -74,7 +74,7 @@ std::vector<FixHDBase *> FixHDBind::integrators(bool overdamped) const
    (1/m + S) y, or with mobilities in place of inverse masses; control points that nothing moves do not answer
 ------------------------------------------------------------------------- */
 
-void FixHDBind::respond(const std::vector<double> &y, std::vector<double> &result, bool overdamped)
+void FixHDBound::respond(const std::vector<double> &y, std::vector<double> &result, bool overdamped)
 {
   spread(y);
   if (atom->nlocal) std::fill_n(answer[0], 3 * atom->nlocal, 0.0);
@@ -96,7 +96,7 @@ void FixHDBind::respond(const std::vector<double> &y, std::vector<double> &resul
 
 // by the power method: from below, within a few percent
 
-double FixHDBind::largest(bool overdamped)
+double FixHDBound::largest(bool overdamped)
 {
   std::vector<double> y(feet.size()), next;
   const CounterRandom random(1, 0);
@@ -120,12 +120,12 @@ double FixHDBind::largest(bool overdamped)
   return value;
 }
 
-double FixHDBind::largest_response()
+double FixHDBound::largest_response()
 {
   return total > 0 ? largest(false) : 0.0;
 }
 
-double FixHDBind::largest_mobility()
+double FixHDBound::largest_mobility()
 {
   const bool any = is_overdamped() || !integrators(true).empty();
   return total > 0 && any ? force->ftm2v * largest(true) : 0.0;
@@ -135,14 +135,14 @@ double FixHDBind::largest_mobility()
 
 // in a direction at random, the same on any number of ranks
 
-void FixHDBind::give_director(int i, const Vector3d &normal)
+void FixHDBound::give_director(int i, const Vector3d &normal)
 {
   const auto z = CounterRandom(turning_seed ^ 0x6469720000ULL, 0).normals(atom->tag[i]);
   const Vector3d any(z[0], z[1], z[2]);
   Vector3d::Map(sites[i].director) = (any - any.dot(normal) * normal).normalized();
 }
 
-void FixHDBind::couple()
+void FixHDBound::couple()
 {
   curvature.update();
   torque.assign(members.size(), 0.0);
@@ -155,7 +155,7 @@ void FixHDBind::couple()
     if (curvature.has_director(atom->type[i]) && director.isZero()) give_director(i, feet[a].normal);
     Vector3d turn = Vector3d::Zero();
     footprint_energy += curvature.add(i, sites[i], atom->f[i], turn);
-    torque[a] = director.cross(turn).dot(feet[a].normal);
+    torque[a] = director.cross(turn).dot(Vector3d::Map(sites[i].normal));
   }
   energy += footprint_energy;
   double v[6] = {};
@@ -170,7 +170,7 @@ void FixHDBind::couple()
 
 // d angle = D/kT torque dt + sqrt(2 D dt) (xi_n + xi_n+1)/2, about the normal
 
-void FixHDBind::turn_directors()
+void FixHDBound::turn_directors()
 {
   const double dt = update->dt, noise = 0.5 * std::sqrt(2.0 * turning * dt);
   const double mobility = turning / (force->boltz * turning_temperature);
@@ -182,20 +182,20 @@ void FixHDBind::turn_directors()
     const double angle = mobility * torque[a] * dt +
         noise * (now.normals(atom->tag[i], 1)[0] + next.normals(atom->tag[i], 1)[0]);
     auto t = Vector3d::Map(sites[i].director);
-    t = std::cos(angle) * t + std::sin(angle) * feet[a].normal.cross(t);
+    t = (std::cos(angle) * t + std::sin(angle) * Vector3d::Map(sites[i].normal).cross(t)).eval();
   }
 }
 
 // === Motion
 
-void FixHDBind::initial_integrate(int)
+void FixHDBound::initial_integrate(int)
 {
   if (turning > 0.0 && curvature.any()) turn_directors();
   if (diffusion > 0.0) diffuse();
   if (rigid) constrain_positions();
 }
 
-void FixHDBind::final_integrate()
+void FixHDBound::final_integrate()
 {
   if (rigid) constrain_velocities();
 }
@@ -205,7 +205,7 @@ void FixHDBind::final_integrate()
    [B. Leimkuhler and C. Matthews, Appl. Math. Res. Express 2013, 34]; mu = D/kT
 ------------------------------------------------------------------------- */
 
-void FixHDBind::diffuse()
+void FixHDBound::diffuse()
 {
   const double dt = update->dt, mobility = diffusion / (force->boltz * temperature);
   const double noise = 0.5 * std::sqrt(2.0 * diffusion * dt);

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -28,40 +28,40 @@ using namespace LAMMPS_NS;
 
 // === Sites follow their atoms
 
-void FixHDBind::grow_arrays(int nmax)
+void FixHDBound::grow_arrays(int nmax)
 {
   sites.grow(nmax);
 }
 
-void FixHDBind::copy_arrays(int i, int j, int)
+void FixHDBound::copy_arrays(int i, int j, int)
 {
   sites.copy(i, j);
 }
 
-void FixHDBind::set_arrays(int i)
+void FixHDBound::set_arrays(int i)
 {
   sites.clear(i);
 }
 
-int FixHDBind::pack_exchange(int i, double *buf)
+int FixHDBound::pack_exchange(int i, double *buf)
 {
   return sites.pack(i, buf);
 }
 
-int FixHDBind::unpack_exchange(int i, double *buf)
+int FixHDBound::unpack_exchange(int i, double *buf)
 {
   return sites.unpack(i, buf);
 }
 
 // === Restart
 
-int FixHDBind::pack_restart(int i, double *buf)
+int FixHDBound::pack_restart(int i, double *buf)
 {
   buf[0] = BoundSites::SIZE + 1;
   return sites.pack(i, buf + 1) + 1;
 }
 
-void FixHDBind::unpack_restart(int i, int nth)
+void FixHDBound::unpack_restart(int i, int nth)
 {
   const double *extra = atom->extra[i];
   int start = 0;
@@ -69,17 +69,17 @@ void FixHDBind::unpack_restart(int i, int nth)
   sites.unpack(i, extra + start + 1);
 }
 
-int FixHDBind::size_restart(int)
+int FixHDBound::size_restart(int)
 {
   return BoundSites::SIZE + 1;
 }
 
-int FixHDBind::maxsize_restart()
+int FixHDBound::maxsize_restart()
 {
   return BoundSites::SIZE + 1;
 }
 
-void FixHDBind::archive(RestartArchive &file)
+void FixHDBound::archive(RestartArchive &file)
 {
   file(noise_steps);
   file(precision);
@@ -90,7 +90,7 @@ void FixHDBind::archive(RestartArchive &file)
   if (file.is_reading() && automatic) spring = kept;
 }
 
-void FixHDBind::write_restart(FILE *fp)
+void FixHDBound::write_restart(FILE *fp)
 {
   if (comm->me) return;
   RestartArchive file;
@@ -101,7 +101,7 @@ void FixHDBind::write_restart(FILE *fp)
   fwrite(file.bytes().data(), 1, length, fp);
 }
 
-void FixHDBind::restart(char *buf)
+void FixHDBound::restart(char *buf)
 {
   int length;
   memcpy(&length, buf, sizeof(int));
@@ -114,25 +114,25 @@ void FixHDBind::restart(char *buf)
 
 // === Exchange of an array [atoms][3]
 
-int FixHDBind::pack_reverse_comm(int n, int first, double *buf)
+int FixHDBound::pack_reverse_comm(int n, int first, double *buf)
 {
   std::copy_n(exchanged[first], 3 * n, buf);
   return 3 * n;
 }
 
-void FixHDBind::unpack_reverse_comm(int n, int *list, double *buf)
+void FixHDBound::unpack_reverse_comm(int n, int *list, double *buf)
 {
   for (int j = 0; j < n; ++j)
     for (int k = 0; k < 3; ++k) exchanged[list[j]][k] += buf[3 * j + k];
 }
 
-int FixHDBind::pack_forward_comm(int n, int *list, double *buf, int, int *)
+int FixHDBound::pack_forward_comm(int n, int *list, double *buf, int, int *)
 {
   for (int j = 0; j < n; ++j) std::copy_n(exchanged[list[j]], 3, buf + 3 * j);
   return 3 * n;
 }
 
-void FixHDBind::unpack_forward_comm(int n, int first, double *buf)
+void FixHDBound::unpack_forward_comm(int n, int first, double *buf)
 {
   std::copy_n(buf, 3 * n, exchanged[first]);
 }

@@ -15,15 +15,17 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 
 #include "atom.h"
 #include "bound_search.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
+#include "mesh_box.h"
 #include "modify.h"
 #include "update.h"
 
@@ -37,6 +39,9 @@ using Membrane_NS::ClosestPoint;
 // edges
 static constexpr double SAME = 1.0e-6;
 
+// of an atom from the first corner of its face, in longest edges
+static constexpr double FACES_AWAY = 3.0;
+
 // the phase of a spring in a step, omega dt, or without inertia its rate times dt: chosen, and where the
 // integrators end
 static constexpr double PHASE_CHOSEN = 0.5;
@@ -44,7 +49,7 @@ static constexpr double PHASE_MOST = 2.0;
 
 // === What is checked and chosen before a run
 
-void FixHDBind::check_group()
+void FixHDBound::check_group()
 {
   tagint mine[2] = {0, 0}, any[2];
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -76,7 +81,7 @@ void FixHDBind::check_group()
    each particle is moved by one fix; and rigid holds correct what integrators before them have done
 ------------------------------------------------------------------------- */
 
-void FixHDBind::check_integrators()
+void FixHDBound::check_integrators()
 {
   if (update->whichflag != 1) return;
   std::vector<int> movers(atom->nlocal, 0);
@@ -114,18 +119,30 @@ void FixHDBind::check_integrators()
                    any[0]);
 }
 
+// whether a face may still be the one: other atoms have its IDs after reset_atoms
+
+bool FixHDBound::is_near(int i, int face) const
+{
+  const double most = FACES_AWAY * mesh->longest_edge() + height;
+  const double *corner = &mesh->unwrapped()[3 * (size_t) mesh->topology().face(face)[0]];
+  double d[3];
+  for (int k = 0; k < 3; ++k) d[k] = atom->x[i][k] - corner[k];
+  nearest_image(*domain, d);
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < most * most;
+}
+
 /* ----------------------------------------------------------------------
-   atoms that have no site, or whose face is gone, get the closest one, and are taken there
+   atoms that have no site, or whose face is gone, get the closest one; those that are new are taken there
 ------------------------------------------------------------------------- */
 
-void FixHDBind::bind_free_atoms()
+void FixHDBound::bind_free_atoms()
 {
   int mine = 0, any;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     BoundSite &site = sites[i];
     if (site.bound()) site.point = find_again(*mesh, site);
-    if (site.point.face < 0) site.corner[0] = 0;
+    if (site.point.face < 0 || !is_near(i, site.point.face)) site.corner[0] = 0;
     if (!site.bound()) mine = 1;
   }
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
@@ -154,7 +171,8 @@ void FixHDBind::bind_free_atoms()
     double *x = atom->x[i];
     const auto found = search.find(Vector3d::Map(x));
     const ClosestPoint &closest = found.closest;
-    site.leaflet = leaflet ? leaflet : closest.distance < -SAME * edge ? -1 : 1;
+    const bool is_new = site.leaflet == 0;
+    if (is_new) site.leaflet = leaflet ? leaflet : closest.distance < -SAME * edge ? -1 : 1;
     const double off = height * site.leaflet - closest.distance;
     if (std::fabs(off) > most)
       error->one(FLERR,
@@ -166,6 +184,7 @@ void FixHDBind::bind_free_atoms()
                  "Fix hd/bind: atom {} is equally near to membranes {} and {}: name one of them by its group",
                  atom->tag[i], mesh->molecule(found.component), mesh->molecule(found.next_component));
     remember(i, closest);
+    if (!is_new) continue;
     for (int k = 0; k < 3; ++k) x[k] += off * closest.normal[k];
     site.distance += off;
     moved[0] = MAX(moved[0], std::fabs(off));
@@ -173,11 +192,11 @@ void FixHDBind::bind_free_atoms()
   }
   MPI_Allreduce(&moved[0], &sums[0], 1, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(&moved[1], &sums[1], 1, MPI_DOUBLE, MPI_SUM, world);
-  if (comm->me == 0)
+  if (comm->me == 0 && sums[1] > 0.0)
     utils::logmesg(lmp, "Fix hd/bind {}: {:.0f} atoms bound, moved by {:.3g} at most\n", id, sums[1], sums[0]);
 }
 
-void FixHDBind::remember(int i, const ClosestPoint &closest)
+void FixHDBound::remember(int i, const ClosestPoint &closest)
 {
   BoundSite &site = sites[i];
   site.point = closest.point;
@@ -189,7 +208,7 @@ void FixHDBind::remember(int i, const ClosestPoint &closest)
    velocity Verlet follows a spring up to omega dt = 2, an overdamped step up to rate dt = 2
 ------------------------------------------------------------------------- */
 
-void FixHDBind::choose_spring()
+void FixHDBound::choose_spring()
 {
   if (rigid || total == 0) return;
   const double dt = update->dt;

@@ -15,11 +15,12 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-#include "fix_hd_bind.h"
+#include "fix_hd_bound.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "force.h"
 #include "group.h"
 #include "update.h"
 
@@ -42,7 +43,7 @@ static constexpr int MOST_PASSES = 500;
    gradients G of d by x and q, multipliers solve G (m^-1, M^-1) G^T y = r, where the matrix is 1/m + S
 ------------------------------------------------------------------------- */
 
-double FixHDBind::dot(const std::vector<double> &a, const std::vector<double> &b) const
+double FixHDBound::dot(const std::vector<double> &a, const std::vector<double> &b) const
 {
   double mine = 0.0, all;
   for (size_t i = 0; i < a.size(); ++i) mine += a[i] * b[i];
@@ -50,7 +51,7 @@ double FixHDBind::dot(const std::vector<double> &a, const std::vector<double> &b
   return all;
 }
 
-std::vector<double> FixHDBind::multipliers(const std::vector<double> &residual)
+std::vector<double> FixHDBound::multipliers(const std::vector<double> &residual)
 {
   std::vector<double> y(residual.size(), 0.0), r = residual, p = r, q;
   const double start = dot(r, r);
@@ -76,7 +77,7 @@ std::vector<double> FixHDBind::multipliers(const std::vector<double> &residual)
    `step`, to `by`, an array of x or v
 ------------------------------------------------------------------------- */
 
-void FixHDBind::push(const std::vector<double> &y, double step, double **by)
+void FixHDBound::push(const std::vector<double> &y, double step, double **by)
 {
   std::vector<double> unused;
   respond(y, unused, false);
@@ -89,11 +90,12 @@ void FixHDBind::push(const std::vector<double> &y, double step, double **by)
 
 // along the normals of the step's beginning
 
-void FixHDBind::constrain_positions()
+void FixHDBound::constrain_positions()
 {
   if (total == 0) return;
   const double dt = update->dt, exact = EXACT * limit->mean_edge();
   const FeetOfRank before = {feet, weights, points};
+  for (const Foot &foot : feet) sites[foot.atom].pull = 0.0;
   for (int round = 0;; ++round) {
     comm->forward_comm();
     find_feet();
@@ -108,13 +110,15 @@ void FixHDBind::constrain_positions()
     const FeetOfRank now = {feet, weights, points};
     std::tie(feet, weights, points) = before;
     const auto y = multipliers(residual);
+    for (size_t a = 0; a < feet.size(); ++a)
+      sites[feet[a].atom].pull += 2.0 * y[a] / (dt * dt * force->ftm2v);
     push(y, 1.0, atom->x);
     push(y, 1.0 / dt, atom->v);
     std::tie(feet, weights, points) = now;
   }
 }
 
-void FixHDBind::constrain_velocities()
+void FixHDBound::constrain_velocities()
 {
   if (total == 0) return;
   exchanged = atom->v;
@@ -131,7 +135,7 @@ void FixHDBind::constrain_velocities()
 
 // each rigid particle has two directions to go
 
-bigint FixHDBind::dof(int igroup)
+bigint FixHDBound::dof(int igroup)
 {
   if (!rigid) return 0;
   bigint mine = 0, all;

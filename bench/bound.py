@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""What bound particles cost: the time of a step with them over that of the same step without.
+
+  bench/bound.py [--lmp build/lmp] [--level 5] [--particles 1000] [--steps 40] [--repeat 5] [--ranks 1]
+
+A vesicle of 10 * 4^level + 2 control points by fix hd/nve; particles by fix nve. The runs alternate, and medians of
+the ratios of successive runs are printed, with their range. "motion" is without holding, fix nve and ghosts alone.
+"""
+
+import argparse
+import re
+import statistics
+import subprocess
+
+SCRIPT = """
+units           lj
+atom_style      membrane_cp
+region          box block -2 2 -2 2 -2 2
+create_box      2 box angle/types 1
+create_membrane 1 sphere {level} 1.0
+group           mem type 1
+create_bound    {n} 2 mem 4711 mass 0.01
+set             type 1 mass 0.01
+group           p type 2
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0
+neigh_modify    exclude group p p
+timestep        1e-6
+thermo          1000000
+fix             1 mem hd/nve
+fix             2 p nve
+{bind}
+hd_velocity     mem 0.01 12
+run             5
+run             {steps}
+"""
+HOLDS = {"motion": "", "spring": "fix b p hd/bind mem", "spring, Brownian": "unfix 2\nfix b p hd/bind mem brownian 1 1e-3 5",
+         "footprint": "fix b p hd/bind mem footprint 2 0.001 20 0 {rho}"}
+
+
+def loop_time(args, n, bind):
+    text = SCRIPT.format(level=args.level, n=n, bind=bind.format(rho=1.5 * 2.15 / 2**args.level * 0.5), steps=args.steps)
+    command = ["mpirun", "--oversubscribe", "-np", str(args.ranks)] if args.ranks > 1 else []
+    out = subprocess.run(command + [args.lmp, "-log", "none", "-in", "/dev/stdin"], input=text, text=True,
+                         capture_output=True).stdout
+    times = re.findall(r"Loop time of ([\d.e+-]+)", out)
+    if len(times) < 2:
+        raise SystemExit(out[-2000:])
+    return float(times[-1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lmp", default="build/lmp")
+    parser.add_argument("--level", type=int, default=5)
+    parser.add_argument("--particles", type=int, default=1000)
+    parser.add_argument("--steps", type=int, default=40)
+    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--ranks", type=int, default=1)
+    args = parser.parse_args()
+    print(f"{10 * 4**args.level + 2} control points, {args.particles} particles: time of a step over that without any")
+    for name, bind in list(HOLDS.items()) + [("no particles, with the fix", None)]:
+        ratios = []
+        for _ in range(args.repeat):
+            bare = loop_time(args, 0, "")
+            with_it = loop_time(args, 0, HOLDS["spring"]) if bind is None else loop_time(args, args.particles, bind)
+            ratios.append(with_it / bare)
+        print(f"  {name:<28}{statistics.median(ratios):.3f}  [{min(ratios):.3f}, {max(ratios):.3f}]", flush=True)
+
+
+if __name__ == "__main__":
+    main()
