@@ -72,4 +72,11 @@ claim("poiseuille: the vesicle takes away some of the flow, and is faster than i
       code == 0 and len(profile) == 24 and 0.7 < mean / without < 1.0 and mean < speed < 1.5 * without,
       f"vesicle {speed:.3f}, mean {mean:.3f}, without vesicle {without:.3f}")
 
+output = example("bound", ("run             12000", "run             4000"), script="in.bound")
+code, rows = plotted("bound", "decay.txt")
+free, crowded = [[float(row[7].rstrip(",")) for row in rows if row[:2] == ["fitted", kind]] for kind in ("tracers", "proteins")]
+error = [float(row[9].rstrip(",")) for row in rows if row[:2] == ["fitted", "tracers"]]
+claim("bound: tracers diffuse as they do when free", code == 0 and abs(free[1] - 0.1) < 0.005 + 3 * error[1], f"{free} +- {error}")
+claim("    and proteins that crowd one another more slowly", all(0.3 < c / 0.1 < 0.6 for c in crowded), crowded)
+
 finish()
