@@ -107,7 +107,9 @@ void FixHDBound::init()
   correcting = rigid && correct != Correct::NO && bath_kT() > 0.0 && update->whichflag == 1;
   if (rigid && correct == Correct::YES && update->whichflag == 1 && !correcting)
     error->all(FLERR, "Fix hd/bind correct yes needs a temperature, and the fix that moves the membrane has none: "
-                      "leave it out, or use fix hd/langevin or fix hd/nve measure");
+                      "leave it out, or use fix hd/langevin, without mass sampling, or fix hd/nve measure");
+  if (rigid && update->whichflag == 2)
+    error->all(FLERR, "Fix hd/bind hold rigid does not hold in a minimization: use hold spring");
   comm->cutghostuser =
       MAX(comm->cutghostuser, mesh->ghost_cutoff() + height + FARTHEST * mesh->longest_edge());
   if (curvature.any())
@@ -197,7 +199,9 @@ void FixHDBound::find_members()
   const bigint count = static_cast<bigint>(members.size()), before = total;
   MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (!update->setupflag && update->whichflag && total != before)
-    error->all(FLERR, "Fix hd/bind: {} of {} bound atoms are left in the middle of a run", total, before);
+    error->all(FLERR, "Fix hd/bind: {} of {} bound atoms are left in the middle of a run: do others overlap, or is the timestep "
+               "too long?",
+               total, before);
 }
 
 void FixHDBound::find_feet()

@@ -48,8 +48,8 @@ using Membrane_NS::Derivative;
 double FixHDBound::bath_kT() const
 {
   for (const FixHDBase *integrator : integrators(false))
-    if (integrator->sampled_kT() > 0.0) return integrator->sampled_kT();
-  return 0.0;
+    if (integrator->sampled_kT() > 0.0 && !integrator->sampling()) return integrator->sampled_kT();
+  return 0.0;    // mass sampling is another matrix for each direction, and no mass
 }
 
 void FixHDBound::correct_metric()

@@ -245,6 +245,7 @@ fails(NESTED.format(particles="create_bound 10 7 outer 5"), "type 7")
 fails(NESTED.format(particles="create_bound 10 2 outer 5 colour red"), "Unknown", "colour")
 fails(PLAIN + "compute s p hd/surface/atom nofix\nrun 0\n", "no fix hd/bind", "nofix")
 fails(PLAIN + "fix b p hd/bind outer\ncompute d p hd/density b curvature 0 1 2\nrun 0\n", "bins 0")
+fails(PLAIN + "fix b p hd/bind outer hold rigid\nminimize 0 0 1 1\n", "rigid", "minimization")
 text = lammps(PLAIN.replace("fix 2 p nve\n", "") + "fix b p hd/bind outer\nrun 10\n")[1]
 claim("particles that nothing moves are warned of", "not moved by any fix" in text)
 fails(PLAIN + "fix b p hd/bind outer hold spring 5\nvelocity p create 900.0 4\nrun 200\n", "off its place", "shorter timestep")
