@@ -40,6 +40,8 @@ FixHDBind::FixHDBind(LAMMPS *lmp, int narg, char **arg) : FixHDBound(lmp, narg, 
     error->all(FLERR, "Fix hd/bind correct is for hold rigid: springs need no correction");
   if (rigid && diffusion > 0.0)
     error->all(FLERR, "Fix hd/bind brownian needs hold spring: without inertia there is nothing rigid to conserve");
+  if (carried && diffusion == 0.0)
+    error->all(FLERR, "Fix hd/bind friction membrane is for atoms that it moves itself: add brownian");
   time_integrate = diffusion > 0.0;
 }
 
@@ -103,6 +105,14 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
     if (seed <= 0) error->all(FLERR, "Fix hd/bind brownian seed {} must be positive", arg[iarg + 3]);
     return 4;
   }
+  if (key == "friction") {
+    need(2);
+    const std::string word = arg[iarg + 1];
+    if (word != "bath" && word != "membrane")
+      error->all(FLERR, "Fix hd/bind friction {} is not bath or membrane", word);
+    carried = word == "membrane";
+    return 2;
+  }
   if (key == "footprint" || key == "bar") return curvature.parse(narg - iarg, arg + iarg);
   if (key == "rotate") {
     need(4);
@@ -116,7 +126,7 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
   }
   error->all(FLERR,
              "Unknown fix hd/bind keyword {}; known are: max, leaflet, height, hold, correct, "
-             "brownian, footprint, bar, rotate",
+             "brownian, friction, footprint, bar, rotate",
              key);
   return 0;
 }

@@ -20,6 +20,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hd_base.h"
 #include "group.h"
 #include "memory.h"
 #include "modify.h"
@@ -45,7 +46,7 @@ static constexpr double PRECISION = 1.0e-10;
 
 FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membranebit(0), max_distance(0.0), leaflet(0), height(0.0), rigid(false),
-    automatic(true), correct(Correct::DEFAULT), spring(0.0), diffusion(0.0), temperature(0.0), seed(0),
+    automatic(true), correct(Correct::DEFAULT), spring(0.0), diffusion(0.0), temperature(0.0), seed(0), carried(false),
     turning(0.0), turning_temperature(0.0), turning_seed(0), curvature(lmp), correcting(false), noise_steps(0),
     mesh(lmp, "Fix hd/bind"), footprint_energy(0.0), total(0), precision(0.0), chosen_for(0.0), chosen_count(0),
     energy(0.0), squares(0.0), farthest(0.0), phase(0.0), work(nullptr), answer(nullptr), exchanged(nullptr),
@@ -101,6 +102,11 @@ void FixHDBound::init()
     make_surface();
   curvature.init(*mesh, membranebit);
   if (precision == 0.0) precision = PRECISION * limit->mean_edge();
+  if (carried)
+    for (const FixHDBase *integrator : integrators(false))
+      if (group->bitmask[integrator->igroup] & membranebit)
+        error->all(FLERR, "Fix hd/bind friction membrane needs a membrane without inertia, and fix {} ({}) moves it: use "
+                          "fix hd/brownian", integrator->id, integrator->style);
   check_group();
   bind_free_atoms();
   check_integrators();
@@ -231,10 +237,11 @@ void FixHDBound::find_feet()
     squares += off * off;
     farthest = MAX(farthest, std::fabs(off));
     limit->weights<0>(closest.point, row);
-    feet[a] = {i, closest.normal, static_cast<int>(weights.size()), size};
+    feet[a] = {i, closest.normal, static_cast<int>(weights.size()), size, Vector3d::Zero()};
     const int *local = limit->atoms(face);
     weights.insert(weights.end(), row.data(), row.data() + size);
     points.insert(points.end(), local, local + size);
+    if (carried) feet[a].place = place_of(feet[a]);
   }
 }
 
@@ -277,6 +284,7 @@ void FixHDBound::hold(int vflag)
     if (correcting) correct_metric();
     return;
   }
+  if (carried) drag_membrane();
   std::vector<double> pull(feet.size());
   for (size_t a = 0; a < feet.size(); ++a) {
     const int i = feet[a].atom;
@@ -287,6 +295,7 @@ void FixHDBound::hold(int vflag)
     for (int k = 0; k < 3; ++k) atom->f[i][k] += pull[a] * n[k];
     tally_pull(feet[a], pull[a]);
   }
+  if (carried) return;    // what holds an atom moves it alone, and what pulls it pulls the membrane
   spread(pull);
   for (int i = 0; i < atom->nlocal; ++i)
     for (int k = 0; k < 3; ++k) atom->f[i][k] -= work[i][k];

@@ -114,6 +114,7 @@ class FixHDBound : public Fix {
   double spring;
   double diffusion, temperature;    // of motion without inertia; 0: others move the atoms
   bigint seed;
+  bool carried;    // the drag is against the membrane, which takes them along, and not against a bath
   double turning, turning_temperature;    // diffusion of directors, in angle^2/time; 0: none
   bigint turning_seed;
   BoundCurvature curvature;
@@ -145,6 +146,7 @@ class FixHDBound : public Fix {
     int atom;                 // owned
     Eigen::Vector3d normal;
     int start, size;          // of its weights
+    Eigen::Vector3d place;    // the point of the surface, if carried
   };
   using FeetOfRank = std::tuple<std::vector<Foot>, std::vector<double>, std::vector<int>>;
   std::vector<int> members;   // owned atoms that are bound
@@ -172,6 +174,8 @@ class FixHDBound : public Fix {
   void tally_pull(const Foot &, double pull);
   void clear_work();
   void spread(const std::vector<double> &);
+  Eigen::Vector3d place_of(const Foot &) const;
+  void drag_membrane();
   void diffuse();
   void couple();
   void give_director(int, const Eigen::Vector3d &normal);

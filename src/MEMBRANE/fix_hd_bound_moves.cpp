@@ -201,6 +201,50 @@ void FixHDBound::final_integrate()
 }
 
 /* ----------------------------------------------------------------------
+   With drag against the membrane, friction -zeta (dx/dt - c dq/dt) on x and c times the opposite on q, so
+     dq/dt = Z^-1 (f_q + c f_x),  dx/dt = mu f_x + c dq/dt:
+   what pulls a particle pulls the membrane, and this carries it along. Since c depends on where x is, the control
+   points feel kT dc/dx besides, the pressure of an ideal gas (doc/src/Derivation_bound.rst)
+------------------------------------------------------------------------- */
+
+void FixHDBound::drag_membrane()
+{
+  const double kT = force->boltz * temperature;
+  Membrane_NS::SurfaceWeights row;
+  clear_work();
+  for (const Foot &foot : feet) {
+    const auto &point = sites[foot.atom].point;
+    limit->look_from(foot.atom);
+    const auto jet = limit->evaluate<1>(point);
+    limit->weights<1>(point, row);
+    const Eigen::Matrix2d inverse = jet.metric().inverse();
+    const Vector3d up[2] = {inverse(0, 0) * jet.du() + inverse(0, 1) * jet.dv(),
+                            inverse(1, 0) * jet.du() + inverse(1, 1) * jet.dv()};
+    for (int k = 0; k < foot.size; ++k)
+      for (int d = 0; d < 3; ++d)
+        work[points[foot.start + k]][d] += weights[foot.start + k] * atom->f[foot.atom][d] +
+            kT * (row(Membrane_NS::Derivative::DU, k) * up[0][d] + row(Membrane_NS::Derivative::DV, k) * up[1][d]);
+    if (!evflag) continue;
+    const Vector3d &n = foot.normal;
+    double v[6] = {kT * (1.0 - n[0] * n[0]), kT * (1.0 - n[1] * n[1]), kT * (1.0 - n[2] * n[2]),
+                   -kT * n[0] * n[1], -kT * n[0] * n[2], -kT * n[1] * n[2]};
+    int list = foot.atom;
+    v_tally(1, &list, 1.0, v);
+  }
+  exchanged = work;
+  comm->reverse_comm(this);
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int k = 0; k < 3; ++k) atom->f[i][k] += work[i][k];
+}
+
+Vector3d FixHDBound::place_of(const Foot &foot) const
+{
+  Vector3d sum = Vector3d::Zero();
+  for (int k = foot.start; k < foot.start + foot.size; ++k) sum += weights[k] * Vector3d::Map(atom->x[points[k]]);
+  return sum;
+}
+
+/* ----------------------------------------------------------------------
    dx = mu f dt + sqrt(2 kT mu dt) (xi_n + xi_n+1)/2, second order in dt for equilibrium
    [B. Leimkuhler and C. Matthews, Appl. Math. Res. Express 2013, 34]; mu = D/kT
 ------------------------------------------------------------------------- */
@@ -211,11 +255,14 @@ void FixHDBound::diffuse()
   const double noise = 0.5 * std::sqrt(2.0 * diffusion * dt);
   const CounterRandom now(seed, noise_steps), next(seed, noise_steps + 1);
   ++noise_steps;
-  for (int i : members) {
+  if (carried) comm->forward_comm();
+  for (const Foot &foot : feet) {
+    const int i = foot.atom;
+    const Vector3d carry = carried ? Vector3d(place_of(foot) - foot.place) : Vector3d(Vector3d::Zero());
     const auto a = now.normals(atom->tag[i]), b = next.normals(atom->tag[i]);
     double *x = atom->x[i], *v = atom->v[i];
     for (int k = 0; k < 3; ++k) {
-      const double step = mobility * dt * atom->f[i][k] + noise * (a[k] + b[k]);
+      const double step = carry[k] + mobility * dt * atom->f[i][k] + noise * (a[k] + b[k]);
       x[k] += step;
       v[k] = step / dt;
     }

@@ -177,4 +177,41 @@ for name, motion, dt, m, every in (
         claim(f"{name}: P_{l} decays at l(l+1)D/R^2, within 2 % and three errors", abs(value / D - 1) < 0.02 + 3 * error / D,
               f"D {value:.5f} +- {error:.5f}, {D}")
 
+# === Overdamped on a membrane that moves: the gas of particles presses on the area the same, whatever its drag is against
+
+if LONG:
+    MOVING = """
+units           lj
+atom_style      membrane_cp
+region          box block -8 8 -8 8 -8 8
+create_box      2 box angle/types 1
+create_membrane 1 sphere 1 1.9 interpolate yes
+group           mem type 1
+create_bound    {n} 2 mem 4711
+group           p type 2
+special_bonds   lj/coul 1 1 1
+pair_style      helfrich
+pair_coeff      1 1 20.0 0.0 regularize 10 volume 50 init
+timestep        0.001
+fix             1 mem hd/brownian 1.0 {seed} gamma_t 1.0 mass lumped
+{bind}
+compute         hf all pair helfrich
+thermo          100000
+run             5000
+fix             a all ave/time 10 500 5000 c_hf[5] file area.dat
+run             150000
+"""
+
+    def area(n, seed, friction):
+        bind = f"fix b p hd/bind mem brownian 1.0 1.0 {seed} friction {friction}" if n else ""
+        run(MOVING.format(n=n, seed=seed, bind=bind), timeout=6000)
+        values = [float(line.split()[1]) for line in open("area.dat") if not line.startswith("#")]
+        mean = sum(values) / len(values)
+        return mean, math.sqrt(sum((v - mean)**2 for v in values) / len(values) / (len(values) - 1))
+
+    (a0, e0), (a1, e1), (a2, e2) = area(0, 6, ""), area(20, 7, "bath"), area(20, 8, "membrane")
+    claim("drag against the bath and against the membrane: the same area, within three errors",
+          abs(a1 - a2) < 3 * math.hypot(e1, e2), f"{a1:.4f} +- {e1:.4f}, {a2:.4f} +- {e2:.4f}")
+    claim("    and more than without particles", a2 - a0 > 5 * math.hypot(e0, e2), f"{a0:.4f} +- {e0:.4f}")
+
 finish()
