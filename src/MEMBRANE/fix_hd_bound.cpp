@@ -102,11 +102,12 @@ void FixHDBound::init()
     make_surface();
   curvature.init(*mesh, membranebit);
   if (precision == 0.0) precision = PRECISION * limit->mean_edge();
-  if (carried)
-    for (const FixHDBase *integrator : integrators(false))
-      if (group->bitmask[integrator->igroup] & membranebit)
-        error->all(FLERR, "Fix hd/bind friction membrane needs a membrane without inertia, and fix {} ({}) moves it: use "
-                          "fix hd/brownian", integrator->id, integrator->style);
+  if (const FixHDBase *mover = carried ? FixHDBase::of_group(lmp, membranebit, "Fix hd/bind") : nullptr)
+    if (!(mover->drag_coefficient() > 0.0))
+      error->all(FLERR,
+                 "Fix hd/bind friction membrane needs a membrane without inertia, and fix {} ({}) moves it: use fix "
+                 "hd/brownian",
+                 mover->id, mover->style);
   check_group();
   bind_free_atoms();
   check_integrators();

@@ -91,14 +91,13 @@ void FixHDBound::check_integrators()
     if (fix == this) after = true;
     if (!fix->time_integrate) continue;
     int mine = 0, any;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) {
-        ++movers[i];
-        mine = 1;
-      }
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & fix->groupbit)) continue;
+      if (atom->mask[i] & groupbit) ++movers[i];
+      if (atom->mask[i] & (groupbit | membranebit)) mine = 1;
+    }
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-    const bool of_membrane = dynamic_cast<FixHDBase *>(fix) && group->bitmask[fix->igroup] & membranebit;
-    if (after && fix != this && (any || of_membrane)) late = fix->id;
+    if (after && fix != this && any) late = fix->id;
   }
   if ((rigid || diffusion > 0.0) && !late.empty())
     error->all(FLERR, "Fix {} (hd/bind) must come after fix {}, which moves its atoms or its membrane", id, late);

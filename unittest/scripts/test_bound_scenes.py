@@ -232,6 +232,8 @@ fails(PLAIN + "fix b all hd/bind outer\nrun 0\n", "is a control point")
 fails(PLAIN + "fix b p hd/bind outer\nfix c p hd/bind outer\nrun 0\n", "bound by fix", "common")
 fails(PLAIN + "fix b p hd/bind outer\nfix 3 p nve\nrun 10\n", "more than one fix")
 fails(PLAIN.replace("fix 2 p nve\n", "") + "fix b p hd/bind outer hold rigid\nfix 2 p nve\nrun 10\n", "must come after fix 2")
+fails(NESTED.format(particles="create_bound 10 2 outer 5") + "fix 2 p nve\nfix b p hd/bind outer hold rigid\nfix 1 mem hd/nve\nrun 10\n",
+      "must come after fix 1")
 fails(PLAIN + "fix b p hd/bind outer hold spring 1e8\nrun 10\n", "unstable", "at most")
 fails(PLAIN + "fix b p hd/bind outer footprint 2 0 1 1 1\nrun 0\n", "area 0", "positive")
 fails(PLAIN + "fix b p hd/bind outer footprint 2 1e4 1 1 1\nrun 0\n", "larger than")
