@@ -18,12 +18,15 @@
 #include "compute_hd_modes.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fmt/format.h"
+#include "force.h"
 #include "group.h"
 #include "math_const.h"
 #include "memory.h"
+#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -50,30 +53,16 @@ static constexpr int HIGHEST = 200;
 // membrane is taken for something else: quadrature is much better on any mesh that is usable
 static constexpr double MOST_ERROR = 0.05;
 
-/* ---------------------------------------------------------------------- */
-
-static Quadrature parse_quadrature(LAMMPS *lmp, int narg, char **arg)
-{
-  Quadrature quadrature = Quadrature::SIX;
-  for (int iarg = 5; iarg < narg; iarg += 2) {
-    if (strcmp(arg[iarg], "quadrature") != 0)
-      lmp->error->all(FLERR, "Unknown compute hd/modes keyword {}; the only one is: quadrature",
-                      arg[iarg]);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "compute hd/modes quadrature", lmp->error);
-    if (!Membrane_NS::parse_quadrature(arg[iarg + 1], quadrature))
-      lmp->error->all(FLERR, "compute hd/modes quadrature {} is not one of 1, 3, 6, 12, careful",
-                      arg[iarg + 1]);
-  }
-  return quadrature;
-}
+// waves whose lengths differ by less than this part are of one row of averages
+static constexpr double SAME_LENGTH = 0.05;
 
 /* ----------------------------------------------------------------------
    all values are intensive: they are those of the surface, however many control points it has
 ------------------------------------------------------------------------- */
 
 ComputeHDModes::ComputeHDModes(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), shape(Shape::PLANE), highest(0), mesh(lmp, fmt::format("Compute {} hd/modes", id)),
-    rules(parse_quadrature(lmp, narg, arg)), totals(lmp, mesh), component(0)
+    Compute(lmp, narg, arg), shape(Shape::PLANE), highest(0), quadrature(Quadrature::SIX), nmodes(0),
+    modes(nullptr), mesh(lmp, fmt::format("Compute {} hd/modes", id)), totals(lmp, mesh), component(0)
 {
   mesh.require();
   if (narg < 5) utils::missing_cmd_args(FLERR, "compute hd/modes", error);
@@ -87,47 +76,143 @@ ComputeHDModes::ComputeHDModes(LAMMPS *lmp, int narg, char **arg) :
   if (highest < 1 || highest > HIGHEST)
     error->all(FLERR, "compute hd/modes {} {}: the highest mode must be between 1 and {}", arg[3],
                arg[4], HIGHEST);
+  parse(narg, arg);
+  rules = std::make_unique<PatchRules>(quadrature);
 
   const bool plane = shape == Shape::PLANE;
   vector_flag = array_flag = 1;
   size_vector = plane ? NPLANE : NSPHERE;
-  size_array_rows = plane ? Membrane_NS::count_waves(highest)
-                          : Membrane_NS::count_harmonics(highest);
-  size_array_cols = NCOLUMNS;
   extvector = extarray = 0;
+  number_modes();
+  if (sampling.every > 0) {
+    begin_averages();
+  } else {
+    array = modes;
+    size_array_rows = nmodes;
+    size_array_cols = NCOLUMNS;
+  }
   vector = new double[size_vector]();
-  memory->create(array, size_array_rows, size_array_cols, "hd/modes:array");
-  std::fill_n(array[0], size_array_rows * size_array_cols, 0.0);
-
-  // in the order of the ground floor's sums
-
-  int row = 0;
-  if (plane)
-    for (int nx = 0; nx <= highest; ++nx)
-      for (int ny = nx == 0 ? 1 : -highest; ny <= highest; ++ny, ++row) {
-        array[row][FIRST_NUMBER] = nx;
-        array[row][SECOND_NUMBER] = ny;
-      }
-  else
-    for (int l = 0; l <= highest; ++l)
-      for (int m = -l; m <= l; ++m, ++row) {
-        array[row][FIRST_NUMBER] = l;
-        array[row][SECOND_NUMBER] = m;
-      }
 }
 
 ComputeHDModes::~ComputeHDModes()
 {
+  if (averages && modify->nfix) modify->delete_fix(name_of_averages());
   delete[] vector;
-  memory->destroy(array);
+  if (array != modes) memory->destroy(array);
+  memory->destroy(modes);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHDModes::parse(int narg, char **arg)
+{
+  for (int iarg = 5; iarg < narg;) {
+    const int words = sampling.parse(lmp, "compute hd/modes", iarg, narg, arg);
+    iarg += words;
+    if (words) continue;
+    if (strcmp(arg[iarg], "quadrature") != 0)
+      error->all(FLERR, "Unknown compute hd/modes keyword {}; known are: quadrature, average, theory, file",
+                 arg[iarg]);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "compute hd/modes quadrature", error);
+    if (!Membrane_NS::parse_quadrature(arg[iarg + 1], quadrature))
+      error->all(FLERR, "compute hd/modes quadrature {} is not one of 1, 3, 6, 12, careful",
+                 arg[iarg + 1]);
+    iarg += 2;
+  }
+  sampling.check(lmp, "compute hd/modes");
+  if (sampling.every > 0 && shape == Shape::SPHERE && highest < 2)
+    error->all(FLERR, "compute hd/modes sphere {} average: averages begin with degree 2", highest);
+}
+
+/* ----------------------------------------------------------------------
+   in the order of the ground floor's sums
+------------------------------------------------------------------------- */
+
+void ComputeHDModes::number_modes()
+{
+  const bool plane = shape == Shape::PLANE;
+  nmodes = plane ? Membrane_NS::count_waves(highest) : Membrane_NS::count_harmonics(highest);
+  memory->create(modes, nmodes, NCOLUMNS, "hd/modes:modes");
+  std::fill_n(modes[0], nmodes * NCOLUMNS, 0.0);
+  int row = 0;
+  if (plane)
+    for (int nx = 0; nx <= highest; ++nx)
+      for (int ny = nx == 0 ? 1 : -highest; ny <= highest; ++ny, ++row) {
+        modes[row][FIRST_NUMBER] = nx;
+        modes[row][SECOND_NUMBER] = ny;
+      }
+  else
+    for (int l = 0; l <= highest; ++l)
+      for (int m = -l; m <= l; ++m, ++row) {
+        modes[row][FIRST_NUMBER] = l;
+        modes[row][SECOND_NUMBER] = m;
+      }
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string ComputeHDModes::name_of_averages() const
+{
+  return fmt::format("{}_HD_SAMPLES", id);
+}
+
+void ComputeHDModes::begin_averages()
+{
+  std::vector<double> number(nmodes);
+  for (int i = 0; i < nmodes; ++i)
+    number[i] = shape == Shape::PLANE ? wave_number(i) : modes[i][FIRST_NUMBER] > 1 ? modes[i][FIRST_NUMBER] : 0.0;
+  averages = std::make_unique<ModeAverages>(lmp, number, shape == Shape::PLANE ? SAME_LENGTH : 0.0);
+  size_array_rows = averages->num_rows();
+  size_array_cols = ModeAverages::NCOLUMNS;
+  memory->create(array, size_array_rows, size_array_cols, "hd/modes:array");
+  ++size_vector;    // the number of samples
+  modify->add_fix(fmt::format("{} {} HD/SAMPLES {} {}", name_of_averages(), group->names[igroup],
+                              sampling.every, id));
+}
+
+double ComputeHDModes::wave_number(int i) const
+{
+  const double *inverse = domain->h_inv, nx = modes[i][FIRST_NUMBER], ny = modes[i][SECOND_NUMBER];
+  return MY_2PI * std::hypot(nx * inverse[0], nx * inverse[5] + ny * inverse[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeHDModes::take_sample()
+{
+  measure();
+  std::vector<double> number(nmodes), power(nmodes), theory(nmodes);
+  for (int i = 0; i < nmodes; ++i) {
+    number[i] = modes[i][WAVE_NUMBER];
+    power[i] = modes[i][POWER];
+    theory[i] = shape == Shape::PLANE ? sampling.wave_power(number[i], vector[PROJECTED_AREA])
+                                      : sampling.harmonic_power(number[i], vector[RADIUS]);
+  }
+  averages->add(number, power, theory);
+}
+
+void ComputeHDModes::finish_samples()
+{
+  if (!sampling.file.empty() && averages->count() > 0)
+    averages->write(sampling, fmt::format("compute {} hd/modes", id));
 }
 
 /* ---------------------------------------------------------------------- */
 
 void ComputeHDModes::init()
 {
-  mesh.init();
+  if (mesh.init() == MeshChange::TOPOLOGY) forget_samples();
   choose_membrane();
+}
+
+// those of other control points
+
+void ComputeHDModes::forget_samples()
+{
+  if (!averages || averages->count() == 0) return;
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Compute {} hd/modes: membranes have changed, averages begin anew\n", id);
+  averages->begin_anew();
 }
 
 /* ----------------------------------------------------------------------
@@ -231,7 +316,7 @@ void ComputeHDModes::localize()
 {
   groups.clear();
   int slot = 0;
-  for (const FaceGroup &all : mesh->local_groups(rules)) {
+  for (const FaceGroup &all : mesh->local_groups(*rules)) {
     std::vector<int> chosen;
     for (int s = 0; s < all.nfaces; ++s)
       if (totals.component_of(all, s) == component) chosen.push_back(s);
@@ -251,6 +336,7 @@ void ComputeHDModes::localize()
     groups.push_back(std::move(group));
   }
   model.resize(slot);
+  if (shape == Shape::SPHERE) totals.place(groups, model);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -259,10 +345,13 @@ void ComputeHDModes::measure()
 {
   const MeshChange changed = mesh.follow();
   if (changed == MeshChange::TOPOLOGY) {
+    forget_samples();
     choose_membrane();
     setup();
   }
   if (changed != MeshChange::NOTHING) localize();
+  if (shape == Shape::PLANE) place_heights();
+  points.take(groups, atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr, model);
   if (shape == Shape::PLANE)
     measure_plane();
   else
@@ -296,11 +385,8 @@ void ComputeHDModes::place_heights()
 
 void ComputeHDModes::measure_plane()
 {
-  const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  place_heights();
-
   double my_moments[2] = {0.0, 0.0}, moments[2];
-  for (const FaceGroup &group : groups) sheet_moments(group, x, model, my_moments);
+  sheet_moments(points, my_moments);
   MPI_Allreduce(my_moments, moments, 2, MPI_DOUBLE, MPI_SUM, world);
   const double area = moments[0], box_area = domain->h[0] * domain->h[1];
   if (!(std::fabs(std::fabs(area) / box_area - 1.0) < MOST_ERROR))
@@ -317,20 +403,16 @@ void ComputeHDModes::measure_plane()
   frame.t_y = inverse[1];
   frame.height = moments[1] / area;
 
-  mine.assign(2 * (1 + (size_t) size_array_rows), 0.0);
+  mine.assign(2 * (1 + (size_t) nmodes), 0.0);
   sums.resize(mine.size());
-  for (const FaceGroup &group : groups) sheet_waves(group, x, model, frame, highest, mine.data());
+  sheet_waves(points, frame, highest, mine.data());
   MPI_Allreduce(mine.data(), sums.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
 
   vector[HEIGHT] = frame.height;
   vector[MEAN_SQUARE] = sums[0] / area;
   vector[PROJECTED_AREA] = box_area;
-  for (int i = 0; i < size_array_rows; ++i) {
-    const double nx = array[i][FIRST_NUMBER], ny = array[i][SECOND_NUMBER];
-    const double qx = MY_2PI * nx * inverse[0];
-    const double qy = MY_2PI * (nx * inverse[5] + ny * inverse[1]);
-    set_row(i, std::hypot(qx, qy), sums[2 * (i + 1)] / area, sums[2 * (i + 1) + 1] / area);
-  }
+  for (int i = 0; i < nmodes; ++i)
+    set_row(i, wave_number(i), sums[2 * (i + 1)] / area, sums[2 * (i + 1) + 1] / area);
 }
 
 /* ----------------------------------------------------------------------
@@ -340,11 +422,8 @@ void ComputeHDModes::measure_plane()
 
 void ComputeHDModes::measure_sphere()
 {
-  const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  totals.measure(groups, model, integrals, {true, false});
-
   double my_moments[4] = {0.0, 0.0, 0.0, 0.0}, moments[4];
-  for (const FaceGroup &group : groups) sphere_moments(group, x, model, my_moments);
+  sphere_moments(points, my_moments);
   MPI_Allreduce(my_moments, moments, 4, MPI_DOUBLE, MPI_SUM, world);
   const double volume = moments[0];
   if (!(volume > 0.0))
@@ -352,20 +431,19 @@ void ComputeHDModes::measure_sphere()
                "Compute {} hd/modes sphere: membrane {} encloses the volume {:.6g}: its faces are "
                "inside out; reverse the order of their corners",
                id, mesh->molecule(component), volume);
+  double off[3];
   for (int k = 0; k < 3; ++k) {
-    const double off = moments[1 + k] / volume;
-    for (size_t i = k; i < model.origin.size(); i += 3) model.origin[i] += off;
-    vector[CENTRE + k] = totals.components()[component].centre[k] + off;
+    off[k] = moments[1 + k] / volume;
+    vector[CENTRE + k] = totals.components()[component].centre[k] + off[k];
   }
 
   const double first = std::cbrt(volume / (2.0 * MY_2PI / 3.0));
-  mine.assign((size_t) size_array_rows + 1, 0.0);
+  mine.assign((size_t) nmodes + 1, 0.0);
   sums.resize(mine.size());
-  for (const FaceGroup &group : groups)
-    sphere_harmonics(group, x, model, first, highest, mine.data());
+  sphere_harmonics(points, off, first, highest, mine.data());
   MPI_Allreduce(mine.data(), sums.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
 
-  const double solid_angle = sums[size_array_rows];
+  const double solid_angle = sums[nmodes];
   if (!(std::fabs(solid_angle / (2.0 * MY_2PI) - 1.0) < MOST_ERROR))
     error->all(FLERR,
                "Compute {} hd/modes sphere: membrane {} covers the solid angle {:.6g} pi about its "
@@ -375,41 +453,48 @@ void ComputeHDModes::measure_sphere()
   const double stretch = 1.0 + sums[0] * 2.0 * std::sqrt(MY_PI) / solid_angle;
   vector[RADIUS] = stretch * first;
   set_row(0, 0.0, 0.0, 0.0);
-  for (int i = 1; i < size_array_rows; ++i)
-    set_row(i, array[i][FIRST_NUMBER], sums[i] / stretch, 0.0);
+  for (int i = 1; i < nmodes; ++i) set_row(i, modes[i][FIRST_NUMBER], sums[i] / stretch, 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void ComputeHDModes::set_row(int i, double wave_number, double re, double im)
 {
-  array[i][WAVE_NUMBER] = wave_number;
-  array[i][REAL] = re;
-  array[i][IMAGINARY] = im;
-  array[i][POWER] = re * re + im * im;
+  modes[i][WAVE_NUMBER] = wave_number;
+  modes[i][REAL] = re;
+  modes[i][IMAGINARY] = im;
+  modes[i][POWER] = re * re + im * im;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void ComputeHDModes::compute_array()
 {
+  const bool measured = (invoked_flag & Compute::INVOKED_VECTOR) && invoked_vector == update->ntimestep;
   invoked_array = update->ntimestep;
-  measure();
+  if (averages)
+    averages->fill(array);
+  else if (!measured)
+    measure();
 }
 
 void ComputeHDModes::compute_vector()
 {
+  const bool measured = !averages && (invoked_flag & Compute::INVOKED_ARRAY) &&
+      invoked_array == update->ntimestep;
   invoked_vector = update->ntimestep;
-  measure();
+  if (!measured) measure();
+  if (averages) vector[size_vector - 1] = static_cast<double>(averages->count());
 }
 
 /* ---------------------------------------------------------------------- */
 
 double ComputeHDModes::memory_usage()
 {
-  double bytes = sizeof(double) * ((double) size_array_rows * NCOLUMNS + size_vector);
+  double bytes = sizeof(double) * ((double) nmodes * NCOLUMNS + size_vector);
   for (const FaceGroup &group : groups)
     bytes += sizeof(int) * (group.points.capacity() + group.face.capacity());
   bytes += sizeof(double) * (13.0 * count_slots(groups) + mine.capacity() + sums.capacity());
-  return bytes + sizeof(int) * heights.capacity() + rules.memory_usage();
+  bytes += sizeof(Membrane_NS::Lane3) * 2.0 * points.r.capacity();
+  return bytes + sizeof(int) * heights.capacity() + rules->memory_usage();
 }

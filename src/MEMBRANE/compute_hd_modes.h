@@ -21,18 +21,25 @@ ComputeStyle(hd/modes,ComputeHDModes);
 #define LMP_COMPUTE_HD_MODES_H
 
 #include "compute.h"
+#include "hd_mode_averages.h"
 #include "membrane_modes.h"
 #include "mesh_totals.h"
 
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-/// Fourier amplitudes of a periodic sheet, or spherical-harmonic amplitudes of a closed membrane.
-class ComputeHDModes : public Compute {
+/** Fourier amplitudes of a periodic sheet, or spherical-harmonic amplitudes of a closed membrane; or mean
+    powers of these over a run. */
+class ComputeHDModes : public Compute, public SampledCompute {
  public:
   ComputeHDModes(class LAMMPS *, int, char **);
   ~ComputeHDModes() override;
+
+  void take_sample() override;
+  void finish_samples() override;
 
   void init() override;
   void setup() override;
@@ -44,18 +51,30 @@ class ComputeHDModes : public Compute {
   enum class Shape { PLANE, SPHERE };
   Shape shape;
   int highest;    // NMAX or LMAX
+  Membrane_NS::Quadrature quadrature;
+
+  ModeSampling sampling;
+  std::unique_ptr<ModeAverages> averages;
+  int nmodes;
+  double **modes;    // [nmodes][NCOLUMNS] of the present shape: the array, without averages
 
   LocalMesh mesh;
-  Membrane_NS::PatchRules rules;
+  std::unique_ptr<Membrane_NS::PatchRules> rules;
   MeshTotals totals;
   int component;
   std::vector<int> heights;    // by vertex: box lengths in z from its image flag to a whole sheet
 
   std::vector<Membrane_NS::FaceGroup> groups;
   Membrane_NS::FaceModel model;
-  Membrane_NS::FaceIntegrals integrals;
+  Membrane_NS::SurfacePoints points;
   std::vector<double> mine, sums;
 
+  void parse(int, char **);
+  void number_modes();
+  void begin_averages();
+  double wave_number(int) const;
+  void forget_samples();
+  std::string name_of_averages() const;
   void choose_membrane();
   void join_heights();
   void localize();

@@ -17,8 +17,6 @@
 
 #include "membrane_modes.h"
 
-#include "membrane_lanes.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -71,52 +69,52 @@ struct LaneSum {
   }
 };
 
-/* ----------------------------------------------------------------------
-   visit(r, n dA) for each quadrature point of each block of faces; n dA is zero in lanes that
-   fill up the last block
-------------------------------------------------------------------------- */
-
-template <class Visit>
-void for_each_point(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                    Visit &&visit)
-{
-  const PatchRule &rule = *group.rule;
-  std::vector<Lane3> p(rule.size);
-  for (int block = 0; block < group.nblocks(); ++block) {
-    const double *origin = &model.origin[3 * ((size_t) group.first_slot + block * LANES)];
-    const int *points = &group.points[(size_t) block * rule.size * LANES];
-    for (int k = 0; k < rule.size; ++k)
-      for (int l = 0; l < LANES; ++l) {
-        const double *point = x[points[k * LANES + l]];
-        p[k].x[l] = point[0] - origin[3 * l];
-        p[k].y[l] = point[1] - origin[3 * l + 1];
-        p[k].z[l] = point[2] - origin[3 * l + 2];
-      }
-
-    Lane counted{};
-    const int faces = std::min(LANES, group.nfaces - block * LANES);
-    for (int l = 0; l < faces; ++l) counted[l] = 1.0;
-    for (int q = 0; q < rule.npoints; ++q) {
-      const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), p.data(), rule.size);
-      const Lane3 u = combine(rule.row(q, LimitBasis::DU), p.data(), rule.size);
-      const Lane3 v = combine(rule.row(q, LimitBasis::DV), p.data(), rule.size);
-      visit(r, (rule.weight[q] * counted) * cross(u, v));
-    }
-  }
-}
-
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
 
-void Membrane_NS::sheet_moments(const FaceGroup &group, const double (*x)[3],
-                                const FaceModel &model, double (&sums)[2])
+void SurfacePoints::take(const std::vector<FaceGroup> &groups, const double (*x)[3],
+                         const FaceModel &model)
+{
+  r.clear();
+  area.clear();
+  std::vector<Lane3> p;
+  for (const FaceGroup &group : groups) {
+    const PatchRule &rule = *group.rule;
+    p.resize(rule.size);
+    for (int block = 0; block < group.nblocks(); ++block) {
+      const double *origin = &model.origin[3 * ((size_t) group.first_slot + block * LANES)];
+      const int *points = &group.points[(size_t) block * rule.size * LANES];
+      for (int k = 0; k < rule.size; ++k)
+        for (int l = 0; l < LANES; ++l) {
+          const double *point = x[points[k * LANES + l]];
+          p[k].x[l] = point[0] - origin[3 * l];
+          p[k].y[l] = point[1] - origin[3 * l + 1];
+          p[k].z[l] = point[2] - origin[3 * l + 2];
+        }
+
+      Lane counted{};
+      const int faces = std::min(LANES, group.nfaces - block * LANES);
+      for (int l = 0; l < faces; ++l) counted[l] = 1.0;
+      for (int q = 0; q < rule.npoints; ++q) {
+        const Lane3 u = combine(rule.row(q, LimitBasis::DU), p.data(), rule.size);
+        const Lane3 v = combine(rule.row(q, LimitBasis::DV), p.data(), rule.size);
+        r.push_back(combine(rule.row(q, LimitBasis::VALUE), p.data(), rule.size));
+        area.push_back((rule.weight[q] * counted) * cross(u, v));
+      }
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::sheet_moments(const SurfacePoints &points, double (&sums)[2])
 {
   LaneSum area, first;
-  for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
-    area.add(n.z);
-    first.add(r.z * n.z);
-  });
+  for (size_t i = 0; i < points.r.size(); ++i) {
+    area.add(points.area[i].z);
+    first.add(points.r[i].z * points.area[i].z);
+  }
   sums[0] += total(area.sum);
   sums[1] += total(first.sum);
 }
@@ -125,11 +123,12 @@ void Membrane_NS::sheet_moments(const FaceGroup &group, const double (*x)[3],
    powers of exp(-2 pi i s) and exp(-2 pi i t) by multiplication: no sines or cosines per wave
 ------------------------------------------------------------------------- */
 
-void Membrane_NS::sheet_waves(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                              const SheetFrame &frame, int nmax, double *sums)
+void Membrane_NS::sheet_waves(const SurfacePoints &points, const SheetFrame &frame, int nmax,
+                              double *sums)
 {
   std::vector<LaneComplex> lanes(1 + count_waves(nmax), LaneComplex{});
-  for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
+  for (size_t i = 0; i < points.r.size(); ++i) {
+    const Lane3 &r = points.r[i], &n = points.area[i];
     const LaneComplex s = wave(frame.s_x * r.x + frame.s_y * r.y);
     const LaneComplex t = wave(frame.t_y * r.y), t_back = conjugate(t);
     const Lane h = r.z - frame.height;
@@ -154,7 +153,7 @@ void Membrane_NS::sheet_waves(const FaceGroup &group, const double (*x)[3], cons
       }
       middle = middle * s;
     }
-  });
+  }
   for (size_t i = 0; i < lanes.size(); ++i) {
     sums[2 * i] += total(lanes[i].re);
     sums[2 * i + 1] += total(lanes[i].im);
@@ -163,18 +162,18 @@ void Membrane_NS::sheet_waves(const FaceGroup &group, const double (*x)[3], cons
 
 /* ---------------------------------------------------------------------- */
 
-void Membrane_NS::sphere_moments(const FaceGroup &group, const double (*x)[3],
-                                 const FaceModel &model, double (&sums)[4])
+void Membrane_NS::sphere_moments(const SurfacePoints &points, double (&sums)[4])
 {
   Lane volume{};
   Lane3 first{};
-  for_each_point(group, x, model, [&](const Lane3 &r, const Lane3 &n) {
-    const Lane cone = r.x * n.x + r.y * n.y + r.z * n.z;
+  for (size_t i = 0; i < points.r.size(); ++i) {
+    const Lane3 &r = points.r[i];
+    const Lane cone = dot(r, points.area[i]);
     volume += cone;
     first.x += cone * r.x;
     first.y += cone * r.y;
     first.z += cone * r.z;
-  });
+  }
   sums[0] += total(volume) / 3.0;
   sums[1] += total(first.x) / 4.0;
   sums[2] += total(first.y) / 4.0;
@@ -188,8 +187,8 @@ void Membrane_NS::sphere_moments(const FaceGroup &group, const double (*x)[3],
      Q_lm = a_lm (z Q_l-1,m - Q_l-2,m / a_l-1,m),  a_lm = sqrt((4 l^2 - 1)/(l^2 - m^2))
 ------------------------------------------------------------------------- */
 
-void Membrane_NS::sphere_harmonics(const FaceGroup &group, const double (*x)[3],
-                                   const FaceModel &model, double radius, int lmax, double *sums)
+void Membrane_NS::sphere_harmonics(const SurfacePoints &points, const double (&middle)[3],
+                                   double radius, int lmax, double *sums)
 {
   const int n = lmax + 1;
   std::vector<double> diagonal(n), a((size_t) n * n, 0.0), inverse((size_t) n * n, 0.0);
@@ -203,7 +202,9 @@ void Membrane_NS::sphere_harmonics(const FaceGroup &group, const double (*x)[3],
   }
 
   std::vector<Lane> lanes(count_harmonics(lmax) + 1, Lane{});
-  for_each_point(group, x, model, [&](const Lane3 &p, const Lane3 &area) {
+  for (size_t i = 0; i < points.r.size(); ++i) {
+    const Lane3 &at = points.r[i], &area = points.area[i];
+    const Lane3 p = {at.x - middle[0], at.y - middle[1], at.z - middle[2]};
     const Lane r = sqrt(p.x * p.x + p.y * p.y + p.z * p.z), over_r = 1.0 / r;
     const Lane z = p.z * over_r;
     const Lane solid = (p.x * area.x + p.y * area.y + p.z * area.z) * over_r * over_r * over_r;
@@ -228,6 +229,6 @@ void Membrane_NS::sphere_harmonics(const FaceGroup &group, const double (*x)[3],
         turned.im *= std::sqrt(2.0);
       }
     }
-  });
+  }
   for (size_t i = 0; i < lanes.size(); ++i) sums[i] += total(lanes[i]);
 }

@@ -15,12 +15,23 @@
 #define LMP_MEMBRANE_MODES_H
 
 #include "membrane_helfrich.h"
+#include "membrane_lanes.h"
+
+#include <vector>
 
 namespace Membrane_NS {
 
-// Integrals of the limit surface that give its undulations. All functions add the sums over the
-// faces of a group to `sums`; positions r are those of x less the origin of the face's slot, which
-// puts faces in different periodic images together. n dA = r_u x r_v du dv.
+/** Quadrature points of the limit surface, LANES at a time: positions r, less the origin of the face's slot,
+    which puts faces in different periodic images together, and n dA = r_u x r_v du dv. Lanes that fill up
+    a last block have n dA = 0. */
+struct SurfacePoints {
+  std::vector<Lane3> r, area;
+
+  /// Makes them anew.
+  void take(const std::vector<FaceGroup> &groups, const double (*x)[3], const FaceModel &model);
+};
+
+// Integrals of the limit surface that give its undulations, added to `sums`.
 
 // === Sheets: h(x, y) = sum_q h_q exp(i q.r), q = 2 pi (nx a* + ny b*)
 
@@ -38,13 +49,11 @@ struct SheetFrame {
 };
 
 /// n_z dA and z n_z dA
-void sheet_moments(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                   double (&sums)[2]);
+void sheet_moments(const SurfacePoints &points, double (&sums)[2]);
 
 /// sums[1 + count_waves(nmax)][2]: real and imaginary part of h exp(-i q.r) n_z dA for each wave,
 /// h = z - height; before them h^2 n_z dA and 0.
-void sheet_waves(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                 const SheetFrame &frame, int nmax, double *sums);
+void sheet_waves(const SurfacePoints &points, const SheetFrame &frame, int nmax, double *sums);
 
 // === Spheres: r = R (1 + sum_lm u_lm Y_lm)
 
@@ -58,13 +67,12 @@ inline int count_harmonics(int lmax)
 }
 
 /// (1/3) r.n dA, the volume, and (1/4) r (r.n) dA, the integral of r over the volume
-void sphere_moments(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                    double (&sums)[4]);
+void sphere_moments(const SurfacePoints &points, double (&sums)[4]);
 
 /// sums[count_harmonics(lmax) + 1]: (|r|/radius - 1) Y_lm dOmega for each harmonic, dOmega =
-/// r.n dA/|r|^3; after them dOmega.
-void sphere_harmonics(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                      double radius, int lmax, double *sums);
+/// r.n dA/|r|^3; after them dOmega. r is measured from `middle`.
+void sphere_harmonics(const SurfacePoints &points, const double (&middle)[3], double radius, int lmax,
+                      double *sums);
 
 }    // namespace Membrane_NS
 

@@ -79,6 +79,24 @@ void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &
 
 /* ---------------------------------------------------------------------- */
 
+void MeshTotals::place(const std::vector<FaceGroup> &groups, FaceModel &model)
+{
+  if (seen != mesh.stamp()) place_centres();
+  std::vector<double> mine(3 * parts.size(), 0.0), all(mine.size());
+  for (const auto &[i, v] : mesh->owned_points()) {
+    double unwrapped[3];
+    domain->unmap(atom->x[i], atom->image[i], unwrapped);
+    for (int k = 0; k < 3; ++k) mine[3 * mesh->topology().component(v) + k] += unwrapped[k];
+  }
+  MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
+  for (size_t c = 0; c < parts.size(); ++c)
+    for (int k = 0; k < 3; ++k)
+      parts[c].centre[k] = all[3 * c + k] / mesh->topology().num_vertices(static_cast<int>(c));
+  place_origins(groups, model);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
                          FaceIntegrals &integrals, const Wanted &wanted)
 {

@@ -48,6 +48,9 @@ class MeshTotals : protected Pointers {
       model's origins are at the centres afterwards, moved to the periodic image each face is in. */
   void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
                Membrane_NS::FaceIntegrals &, const Wanted &);
+  /** Collective. Only the centres of the components, and the model's origins there, without integrals. These
+      stay good until reneighbouring moves atoms to other images. */
+  void place(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &);
   const std::vector<Total> &components() const { return parts; }
   const std::vector<Total> &membranes() const { return sums; }
 

@@ -116,13 +116,13 @@ Waves waves(const TriangleMesh &mesh, int nmax, Quadrature quadrature = Quadratu
   Unfolded faces(mesh, quadrature);
   faces.move_origins(origin);
   double moments[2] = {0.0, 0.0};
-  for (const FaceGroup &group : faces.groups)
-    sheet_moments(group, faces.positions(), faces.model, moments);
+  SurfacePoints points;
+  points.take(faces.groups, faces.positions(), faces.model);
+  sheet_moments(points, moments);
   const Matrix3d inverse = mesh.lattice.inverse();
   const SheetFrame frame = {inverse(0, 0), inverse(0, 1), inverse(1, 1), moments[1] / moments[0]};
   std::vector<double> sums(2 * (1 + count_waves(nmax)), 0.0);
-  for (const FaceGroup &group : faces.groups)
-    sheet_waves(group, faces.positions(), faces.model, frame, nmax, sums.data());
+  sheet_waves(points, frame, nmax, sums.data());
 
   Waves result = {moments[0], frame.height, sums[0] / moments[0], {}};
   for (size_t i = 0; i < sums.size(); i += 2)
@@ -276,10 +276,10 @@ Harmonics harmonics(const TriangleMesh &mesh, int lmax, double radius,
   faces.move_origins(origin);
   double moments[4] = {0.0, 0.0, 0.0, 0.0};
   std::vector<double> sums(count_harmonics(lmax) + 1, 0.0);
-  for (const FaceGroup &group : faces.groups) {
-    sphere_moments(group, faces.positions(), faces.model, moments);
-    sphere_harmonics(group, faces.positions(), faces.model, radius, lmax, sums.data());
-  }
+  SurfacePoints points;
+  points.take(faces.groups, faces.positions(), faces.model);
+  sphere_moments(points, moments);
+  sphere_harmonics(points, {0.0, 0.0, 0.0}, radius, lmax, sums.data());
   Harmonics result;
   result.volume = moments[0];
   result.centroid = Vector3d(moments[1], moments[2], moments[3]) / moments[0];
@@ -372,6 +372,19 @@ TEST(SphereHarmonics, SeeAShiftAsTheFirstOnes)
   EXPECT_NEAR(found.u[1] - still.u[1], unit * shift[1], 1e-6);
   EXPECT_NEAR(found.u[2] - still.u[2], unit * shift[2], 1e-6);
   EXPECT_NEAR(found.u[3] - still.u[3], unit * shift[0], 1e-6);
+}
+
+TEST(SphereHarmonics, AreMeasuredFromTheMiddleThatIsGiven)
+{
+  const TriangleMesh mesh = perturbed(icosphere(2, 1.0), 0.05, 3);
+  const Vector3d shift(0.05, -0.02, 0.03);
+  const Harmonics found = harmonics(mesh, 3, 1.0, Quadrature::SIX, shift);
+  Unfolded faces(mesh, Quadrature::SIX);
+  SurfacePoints points;
+  points.take(faces.groups, faces.positions(), faces.model);
+  std::vector<double> sums(count_harmonics(3) + 1, 0.0);
+  sphere_harmonics(points, {shift[0], shift[1], shift[2]}, 1.0, 3, sums.data());
+  for (size_t i = 0; i < found.u.size(); ++i) EXPECT_NEAR(sums[i], found.u[i], 1e-13);
 }
 
 }    // namespace
