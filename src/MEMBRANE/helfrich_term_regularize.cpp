@@ -89,13 +89,30 @@ class RegularizeTerm : public TermWith<Coefficients> {
   {
     return by_type[type].given ? by_type[type].modulus : unless_given;
   }
+  // of conformal: families of parallel edges, see edge_families(), with a number by component, or -1
+
+  std::vector<int> families, number;
+  bool any_families = false;
+  std::vector<int> family;                      // by slot and edge: 3 number + 0, 1 or 2, or -1
+  std::vector<double> logs, my_sums, sums;
+
   void find_across(const HelfrichScene &, const double (*)[3]);
+  void measure_cross_ratios(const HelfrichScene &, const double (*)[3]);
 };
 
 /* ---------------------------------------------------------------------- */
 
-void RegularizeTerm::choose(const HelfrichScene &)
+void RegularizeTerm::choose(const HelfrichScene &scene)
 {
+  families = Membrane_NS::edge_families(scene.mesh->topology());
+  number.assign(scene.mesh->topology().num_components(), -1);
+  int count = 0;
+  for (size_t f = 0; f < families.size(); ++f) {
+    int &mine = number[scene.mesh->topology().component(scene.mesh->topology().face(static_cast<int>(f))[0])];
+    if (families[f] >= 0 && mine < 0) mine = count++;
+  }
+  sums.assign(6 * static_cast<size_t>(count), 0.0);
+
   unless_given = 0.0;
   for (auto &fix : modify->get_fix_list()) {
     int dim;
@@ -114,6 +131,8 @@ void RegularizeTerm::localize(const std::vector<FaceGroup> &groups, FaceModel &)
   add_corner_means(groups, atom->type, modulus, of_kind(false));
   add_corner_means(groups, atom->type, conformal, of_kind(true));
   any_conformal = std::any_of(conformal.begin(), conformal.end(), [](double k) { return k != 0.0; });
+  any_families = !sums.empty() &&
+      std::any_of(by_type.begin(), by_type.end(), [](const Coefficients &c) { return c.conformal && c.active(); });
   across_known = false;
 }
 
@@ -126,6 +145,8 @@ void RegularizeTerm::find_across(const HelfrichScene &scene, const double (*x)[3
   across_known = true;
   const auto &topology = scene.mesh->topology();
   across.assign(3 * conformal.size(), 0);
+  family.assign(across.size(), -1);
+  logs.assign(across.size(), 0.0);
   for (const FaceGroup &group : scene.groups)
     for (int s = 0; s < group.nfaces; ++s) {
       const int f = group.face[s];
@@ -134,6 +155,9 @@ void RegularizeTerm::find_across(const HelfrichScene &scene, const double (*x)[3
         const int here = group.point(s, k), v = scene.mesh->vertex(atom->tag[here]);
         const int corner = static_cast<int>(std::find(face.begin(), face.end(), v) - face.begin());
         const tagint wanted = scene.mesh->tag(topology.opposite(f, corner));
+        if (families[f] >= 0)
+          family[3 * static_cast<size_t>(group.first_slot + s) + k] =
+              3 * number[topology.component(v)] + (families[f] + corner) % 3;
         double nearest = INFINITY;
         for (int i = 0; i < group.rule->size; ++i) {
           const int j = group.point(s, i);
@@ -149,18 +173,47 @@ void RegularizeTerm::find_across(const HelfrichScene &scene, const double (*x)[3
 }
 
 /* ----------------------------------------------------------------------
+   a fluid sheet does not resist a uniform shear of its mesh, which undulations do to one in a box of fixed
+   shape: the cross ratio at rest of a family of parallel edges is their mean. Where energy is least by it,
+   forces do not notice that it changes
+------------------------------------------------------------------------- */
+
+void RegularizeTerm::measure_cross_ratios(const HelfrichScene &scene, const double (*x)[3])
+{
+  for (const FaceGroup &group : scene.groups)
+    Membrane_NS::cross_ratios(group, x, conformal, across, logs);
+  if (!any_families) return;
+
+  my_sums.assign(sums.size(), 0.0);
+  const auto visit = [&](auto &&act) {
+    for (const FaceGroup &group : scene.groups)
+      for (size_t e = 3 * static_cast<size_t>(group.first_slot), end = e + 3 * group.nfaces; e < end; ++e)
+        if (family[e] >= 0) act(e, conformal[e / 3]);
+  };
+  visit([&](size_t e, double weight) {
+    my_sums[2 * family[e]] += weight;
+    my_sums[2 * family[e] + 1] += weight * logs[e];
+  });
+  MPI_Allreduce(my_sums.data(), sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
+  visit([&](size_t e, double weight) {
+    if (weight > 0.0) logs[e] -= sums[2 * family[e] + 1] / sums[2 * family[e]];
+  });
+}
+
+/* ----------------------------------------------------------------------
    stops before a face collapses
 ------------------------------------------------------------------------- */
 
 void RegularizeTerm::add_forces(HelfrichScene &scene, const double (*x)[3], double (*f)[3])
 {
-  if (any_conformal && !across_known) find_across(scene, x);
+  if ((any_conformal || any_families) && !across_known) find_across(scene, x);
+  if (any_conformal || any_families) measure_cross_ratios(scene, x);
   energy.assign(scene.energies.area.size(), 0.0);
   auto &virial = scene.energies.virial;
   for (const FaceGroup &group : scene.groups) {
     double worst = Membrane_NS::regularize_faces(group, x, modulus, f, energy, virial);
     if (any_conformal)
-      worst = MAX(worst, Membrane_NS::conformal_faces(group, x, conformal, across, f, energy, virial));
+      worst = MAX(worst, Membrane_NS::conformal_faces(group, x, conformal, across, logs, f, energy, virial));
     if (worst < WORST_FACE || (update->whichflag == 2 && std::isfinite(worst))) continue;
     for (int s = 0; s < group.nfaces; ++s)
       if (!(Membrane_NS::face_distortion(x[group.point(s, 0)], x[group.point(s, 1)],

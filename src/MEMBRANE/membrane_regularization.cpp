@@ -20,6 +20,7 @@
 #include "membrane_corner_forces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace Membrane_NS;
@@ -101,10 +102,73 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
 // face with more D/A than this is kept from collapse
 static constexpr double PLAIN = 0.1, BARRIER = 1.3;
 
+std::vector<int> Membrane_NS::edge_families(const Topology &topology)
+{
+  constexpr int UNKNOWN = -2, NONE = -1;
+  std::vector<char> regular(topology.num_components(), 1);
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    if (topology.valence(v) != 6) regular[topology.component(v)] = 0;
+  const auto component = [&](int f) { return topology.component(topology.face(f)[0]); };
+
+  std::vector<int> family(topology.num_faces(), UNKNOWN), next;
+  for (int start = 0; start < topology.num_faces(); ++start) {
+    if (family[start] != UNKNOWN) continue;
+    family[start] = regular[component(start)] ? 0 : NONE;
+    if (family[start] == NONE) continue;
+    next = {start};
+    while (!next.empty()) {
+      const int f = next.back();
+      next.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        // the edge from corner k is that from corner j of the face beyond it
+        const int g = topology.neighbor(f, k), end = topology.face(f)[(k + 1) % 3];
+        int j = 0;
+        while (topology.neighbor(g, j) != f || topology.face(g)[j] != end) ++j;
+        const int expected = (family[f] + k - j + 3) % 3;
+        if (family[g] == UNKNOWN) {
+          family[g] = expected;
+          next.push_back(g);
+        } else if (family[g] != expected) {
+          regular[component(f)] = 0;    // lines close on those of another family
+        }
+      }
+    }
+  }
+  for (int f = 0; f < topology.num_faces(); ++f)
+    if (!regular[component(f)]) family[f] = NONE;
+  return family;
+}
+
+// the sides of the two faces at the edge from corner k, in the order of l_1 l_2/(l_3 l_4)
+
+static std::array<Vector3d, 4> sides_at(const FaceCorners &corners, int k, const double *across)
+{
+  const Vector3d &p0 = corners.place[k], &p1 = corners.place[(k + 1) % 3], &p2 = corners.place[(k + 2) % 3];
+  const Map<const Vector3d> d(across);
+  return {p1 - p2, p0 - d, p2 - p0, d - p1};
+}
+
+void Membrane_NS::cross_ratios(const FaceGroup &group, const double (*x)[3],
+                               const std::vector<double> &modulus, const std::vector<int> &across,
+                               std::vector<double> &logs)
+{
+  for (int s = 0; s < group.nfaces; ++s) {
+    const size_t slot = group.first_slot + s;
+    if (modulus[slot] == 0.0) continue;
+    const FaceCorners corners(group, s, x);
+    for (int k = 0; k < 3; ++k) {
+      const auto side = sides_at(corners, k, x[across[3 * slot + k]]);
+      logs[3 * slot + k] = 0.5 * std::log(side[0].squaredNorm() * side[1].squaredNorm() /
+                                          (side[2].squaredNorm() * side[3].squaredNorm()));
+    }
+  }
+}
+
 double Membrane_NS::conformal_faces(const FaceGroup &group, const double (*x)[3],
                                     const std::vector<double> &modulus,
-                                    const std::vector<int> &across, double (*f)[3],
-                                    std::vector<double> &energy, std::vector<double> &virial)
+                                    const std::vector<int> &across, const std::vector<double> &logs,
+                                    double (*f)[3], std::vector<double> &energy,
+                                    std::vector<double> &virial)
 {
   double worst = 1.0;
   for (int s = 0; s < group.nfaces; ++s) {
@@ -127,12 +191,10 @@ double Membrane_NS::conformal_faces(const FaceGroup &group, const double (*x)[3]
     const double weight = modulus[slot] / 9.0;
     for (int k = 0; k < 3; ++k) {
       const int d = across[3 * static_cast<size_t>(slot) + k];
-      const Vector3d &p0 = corners.place[k], &p1 = corners.place[(k + 1) % 3],
-                     &p2 = corners.place[(k + 2) % 3], across_edge(x[d]);
-      const Vector3d side[4] = {p1 - p2, p0 - across_edge, p2 - p0, across_edge - p1};
+      const auto side = sides_at(corners, k, x[d]);
       double square[4];
       for (int i = 0; i < 4; ++i) square[i] = side[i].squaredNorm();
-      const double cross = 0.5 * std::log(square[0] * square[1] / (square[2] * square[3]));
+      const double cross = logs[3 * static_cast<size_t>(slot) + k];
       if (!energy.empty()) energy[slot] += weight * cross * cross;
 
       // each side pulls its two ends together, or pushes them apart

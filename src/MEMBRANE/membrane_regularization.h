@@ -41,12 +41,23 @@ double regularize_faces(const FaceGroup &group, const double (*x)[3],
     [B. Springborn, P. Schroeder and U. Pinkall, Conformal equivalence of triangle meshes, ACM Trans. Graph.
     27, 77 (2008)]. It does not change when the mesh is deformed conformally, that is with another scale in
     every place, and resists shear as much as regularize_faces() of the same K. Besides,
-    K (r - 2)^2/r of r = D/A > 2 keeps faces from collapse.
+    K (r - 1.3)^2/r of r = D/A > 1.3 keeps faces from collapse.
 
-    across: [slots][3], the point d of the edge from corner k to k+1. The rest is as of regularize_faces(). */
+    across: [slots][3], the point d of the edge from corner k to k+1; logs: [slots][3], ln c of these edges, or
+    how far it is from what it is at rest. The rest is as of regularize_faces(). */
 double conformal_faces(const FaceGroup &group, const double (*x)[3],
                        const std::vector<double> &modulus, const std::vector<int> &across,
-                       double (*f)[3], std::vector<double> &energy, std::vector<double> &virial);
+                       const std::vector<double> &logs, double (*f)[3], std::vector<double> &energy,
+                       std::vector<double> &virial);
+/// ln c of the edges, where there is a modulus.
+void cross_ratios(const FaceGroup &group, const double (*x)[3], const std::vector<double> &modulus,
+                  const std::vector<int> &across, std::vector<double> &logs);
+
+/** Edges that run in the same direction: where all points of a component have valence 6 it is made of three
+    families of parallel lines, as a sheet through the box is. By face, the family 0, 1 or 2 of the edge from
+    corner 0 to 1, after which the two others follow; -1 in other components. A uniform shear changes ln c
+    of all edges of a family alike. */
+std::vector<int> edge_families(const Topology &topology);
 
 /// D/A of a triangle: 1 if equilateral, infinite if it has no area.
 double face_distortion(const double *a, const double *b, const double *c);

@@ -90,7 +90,9 @@ FlatScene conformal(const TriangleMesh &mesh)
 {
   FlatScene scene(mesh);
   scene.kernel = [](const FlatScene &s, const FaceGroup &group, auto x, auto f, auto &e, auto &v) {
-    conformal_faces(group, x, s.modulus, s.across, f, e, v);
+    std::vector<double> logs(3 * s.modulus.size(), 0.0);
+    cross_ratios(group, x, s.modulus, s.across, logs);
+    conformal_faces(group, x, s.modulus, s.across, logs, f, e, v);
   };
   return scene;
 }
@@ -241,4 +243,34 @@ TEST(Conformal, ResistsShearAsMuchAsWithoutConformal)
                without = cost(plain(mesh), true) - cost(plain(mesh), false);
   EXPECT_NEAR(without, 0.5 * shear * shear * mesh.faces.size(), 1e-3 * without);
   EXPECT_NEAR(with / without, 1.1, 1e-3);
+}
+
+// Edges of the three families of a sheet run in three directions, whatever the order of faces and corners
+
+TEST(Conformal, FamiliesOfEdgesAreThoseOfADirection)
+{
+  Eigen::Matrix3d lattice = Eigen::Matrix3d::Identity();
+  lattice.diagonal() << 6.0, 3.0 * std::sqrt(3.0), 10.0;
+  TriangleMesh mesh = sheet(6, 6, lattice, 0.0);
+  Random random(11);
+  for (size_t i = mesh.faces.size() - 1; i > 0; --i)
+    std::swap(mesh.faces[i], mesh.faces[static_cast<size_t>(0.5 * (1.0 + random.symmetric()) * (i + 1)) % (i + 1)]);
+  for (size_t i = 0; i < mesh.faces.size(); ++i)
+    std::rotate(mesh.faces[i].begin(), mesh.faces[i].begin() + i % 3, mesh.faces[i].end());
+  const Topology topology = topology_of(mesh);
+  const std::vector<int> family = edge_families(topology);
+  std::vector<Vector3d> direction(3, Vector3d::Zero());
+  for (int f = 0; f < topology.num_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_GE(family[f], 0);
+      const Face &face = topology.face(f);
+      const Vector3d edge = mesh.edge(face[k], face[(k + 1) % 3]).normalized();
+      Vector3d &known = direction[(family[f] + k) % 3];
+      if (known.isZero()) known = edge;
+      EXPECT_NEAR(std::fabs(known.dot(edge)), 1.0, 1e-12);
+    }
+  EXPECT_NEAR(std::fabs(direction[0].dot(direction[1])), 0.5, 1e-12);
+  EXPECT_NEAR(std::fabs(direction[1].dot(direction[2])), 0.5, 1e-12);
+
+  for (int f : edge_families(topology_of(icosphere(2, 1.0)))) EXPECT_EQ(f, -1);
 }
