@@ -104,8 +104,8 @@ for level in options.levels:
     long, longer = {2: (8000, 60000), 3: (8000, 30000), 4: (4000, 15000)}.get(level, (300, 1000))
     # name, fix, timestep or None: a part of the limit, steps, steps between samples
     for name, fix, dt, steps, every in (
-            ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 3.0} 4711 mass sampling", 1.0 if cold else 0.35, long, 1),
-            ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.8 if cold else 0.2, long, 1),
+            ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 3.0} 4711 mass sampling", 0.7 if cold else 0.35, long, 1),
+            ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.5 if cold else 0.15, long, 1),
             ("lumped", f"hd/langevin {kT} {kT} 0.1 4711 mass lumped", None, longer, 10),
             ("vertex", f"hd/langevin {kT} {kT} 0.1 4711 mass vertex", None, longer, 10),
             ("lumped, hd/brownian", f"hd/brownian {kT} 4711 gamma_t {4 * math.pi / points} mass lumped", None, longer, 20)):
@@ -127,5 +127,6 @@ for level in options.levels:
         cost, variance = seconds_of(lines, 1) / (steps // 20), 2 / 5 * 2 * tau
         power = sum(a * a for x in series for a in x) / 5 / len(rows) / (kT / 24)
         mark = " " if steps > 50 * tau else ">"
-        print(f"{points:6d}  {name:22s}  {dt:8.2g}  {power:6.3f}({1000 * power * math.sqrt(variance / steps):3.0f})  {mark}{tau:9.1f}  "
+        error = 1000 * power * math.sqrt(variance / steps)
+        print(f"{points:6d}  {name:22s}  {dt:8.2g}  {power:6.3f}({error:3.0f})  {mark}{tau:9.1f}  "
               f"{1000 * cost:7.2f}  {mark}{variance * cost / 1e-4:10.0f}", flush=True)

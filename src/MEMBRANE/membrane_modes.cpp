@@ -201,32 +201,51 @@ void Membrane_NS::sphere_harmonics(const SurfacePoints &points, const double (&m
     }
   }
 
+  // several blocks of points at a time: one alone would wait for its recurrence
+
+  constexpr int BATCH = 8;
   std::vector<Lane> lanes(count_harmonics(lmax) + 1, Lane{});
-  for (size_t i = 0; i < points.r.size(); ++i) {
-    const Lane3 &at = points.r[i], &area = points.area[i];
-    const Lane3 p = {at.x - middle[0], at.y - middle[1], at.z - middle[2]};
-    const Lane r = sqrt(p.x * p.x + p.y * p.y + p.z * p.z), over_r = 1.0 / r;
-    const Lane z = p.z * over_r;
-    const Lane solid = (p.x * area.x + p.y * area.y + p.z * area.z) * over_r * over_r * over_r;
-    const LaneComplex turn = {p.x * over_r, p.y * over_r};
-    LaneComplex turned = {(r / radius - 1.0) * solid, Lane{}};
-    lanes.back() += solid;
+  for (size_t first = 0; first < points.r.size(); first += BATCH) {
+    Lane z[BATCH];
+    LaneComplex turn[BATCH], turned[BATCH];
+    for (int b = 0; b < BATCH; ++b) {
+      const size_t i = std::min(first + b, points.r.size() - 1);
+      const Lane3 &at = points.r[i], &area = points.area[i];
+      const Lane3 p = {at.x - middle[0], at.y - middle[1], at.z - middle[2]};
+      const Lane r = sqrt(dot(p, p)), over_r = 1.0 / r;
+      const double counted = first + b < points.r.size() ? 1.0 : 0.0;
+      const Lane solid = counted * dot(p, area) * over_r * over_r * over_r;
+      z[b] = p.z * over_r;
+      turn[b] = {p.x * over_r, p.y * over_r};
+      turned[b] = {(r / radius - 1.0) * solid, Lane{}};
+      lanes.back() += solid;
+    }
     for (int m = 0; m <= lmax; ++m) {
-      Lane previous{}, Q = diagonal[m] + Lane{};
+      Lane previous[BATCH] = {}, Q[BATCH];
+      for (Lane &q : Q) q = diagonal[m] + Lane{};
       for (int l = m; l <= lmax; ++l) {
+        Lane re{}, im{};
         if (l > m) {
-          const Lane next = a[m * n + l] * (z * Q - inverse[m * n + l - 1] * previous);
-          previous = Q;
-          Q = next;
+          const double forth = a[m * n + l], back = forth * inverse[m * n + l - 1];
+          for (int b = 0; b < BATCH; ++b) {
+            const Lane next = forth * z[b] * Q[b] - back * previous[b];
+            previous[b] = Q[b];
+            Q[b] = next;
+          }
+        }
+        for (int b = 0; b < BATCH; ++b) {
+          re += Q[b] * turned[b].re;
+          im += Q[b] * turned[b].im;
         }
         const int zonal = l * l + l;
-        lanes[zonal + m] += Q * turned.re;
-        if (m > 0) lanes[zonal - m] += Q * turned.im;
+        lanes[zonal + m] += re;
+        if (m > 0) lanes[zonal - m] += im;
       }
-      turned = turned * turn;
-      if (m == 0) {
-        turned.re *= std::sqrt(2.0);
-        turned.im *= std::sqrt(2.0);
+      for (int b = 0; b < BATCH; ++b) {
+        turned[b] = turned[b] * turn[b];
+        if (m > 0) continue;
+        turned[b].re *= std::sqrt(2.0);
+        turned[b].im *= std::sqrt(2.0);
       }
     }
   }

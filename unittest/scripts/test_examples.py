@@ -44,7 +44,7 @@ ratios = ratios_of(rows)
 mean = sum(ratios) / len(ratios)
 claim("    and its spectrum is near theory", code == 0 and len(ratios) == 21 and abs(mean - 1) < 0.05, f"{mean:.3f}")
 
-example("flicker", ("5 100 500", "5 20 100"), ("run             20000", "run             2000"))
+example("flicker", ("run             20000", "run             2000"))
 code, rows = plotted("flicker")
 ratios = ratios_of([row for row in rows if row[0] != "fitted"])
 mean = sum(ratios) / len(ratios)

@@ -64,6 +64,39 @@ def claims(text, ratios, precision):
           f"{mean:.4f} +- {weight ** -0.5:.4f}")
 
 
+# === A uniform shear of the mesh, which undulations make in a box of fixed shape, is none of a fluid
+
+SHEAR = """
+units           lj
+atom_style      membrane_cp
+region          box block 0 12 0 12.124355652982141 -9 9
+create_box      1 box angle/types 1
+create_membrane 1 plane 12 14 mass 1.0
+displace_atoms  all random 0.01 0.01 0.01 4711 units box
+special_bonds   lj/coul 1 1 1
+pair_style      helfrich
+pair_coeff      1 1 0.0 0.0 regularize 1.0 {kind}
+compute         e all pair helfrich
+thermo_style    custom step c_e[7]
+thermo_modify   norm no format float %.15g
+run             0
+change_box      all x scale 1.05 y scale {y!r} remap units box
+run             0
+"""
+costs = {}
+for kind in ("", "conformal"):
+    for ranks in (1, 2):
+        before, after = (row["c_e[7]"] for row in thermo(run(SHEAR.format(kind=kind, y=1 / 1.05), ranks=ranks)))
+        costs[kind, ranks] = after - before
+expected = 0.5 * (2 * math.log(1.05)) ** 2 * 2 * 168
+claim("without conformal the mesh of a sheet resists uniform shear", abs(costs["", 1] / expected - 1) < 0.1,
+      f"{costs['', 1]:.3f}, expected {expected:.3f}")
+claim("with conformal it does not, but for the tenth that is as without it",
+      abs(costs["conformal", 1] / costs["", 1] - 0.1) < 0.02, f"{costs['conformal', 1]:.4f}")
+claim("on two ranks likewise", abs(costs["conformal", 2] / costs["conformal", 1] - 1) < 1e-8)
+
+# === Spectra
+
 ratios, rows = sheet(2, 40000 if LONG else 8000)
 claims("672 points", ratios, 0.01)
 
