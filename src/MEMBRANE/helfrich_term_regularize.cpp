@@ -213,7 +213,7 @@ void RegularizeTerm::add_forces(HelfrichScene &scene, const double (*x)[3], doub
   for (const FaceGroup &group : scene.groups) {
     double worst = Membrane_NS::regularize_faces(group, x, modulus, f, energy, virial);
     if (any_conformal)
-      worst = MAX(worst, Membrane_NS::conformal_faces(group, x, conformal, across, logs, f, energy, virial));
+      worst = std::max(worst, Membrane_NS::conformal_faces(group, x, conformal, across, logs, f, energy, virial));
     if (worst < WORST_FACE || (update->whichflag == 2 && std::isfinite(worst))) continue;
     for (int s = 0; s < group.nfaces; ++s)
       if (!(Membrane_NS::face_distortion(x[group.point(s, 0)], x[group.point(s, 1)],
