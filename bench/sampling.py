@@ -24,7 +24,7 @@ create_box      1 box angle/types 1
 create_membrane 1 sphere {level} 1.0 interpolate yes mass {mass!r}
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 volume 1000.0 {volume!r} regularize 0.5 conformal
+pair_coeff      1 1 1.0 0.0 volume 1000.0 {volume!r} regularize {modulus} conformal
 fix             1 all {fix}
 thermo          1000000
 """
@@ -104,14 +104,14 @@ for level in options.levels:
     long, longer = {2: (8000, 60000), 3: (8000, 30000), 4: (4000, 15000)}.get(level, (300, 1000))
     # name, fix, timestep or None: a part of the limit, steps, steps between samples
     for name, fix, dt, steps, every in (
-            ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 3.0} 4711 mass sampling", 0.7 if cold else 0.35, long, 1),
-            ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.5 if cold else 0.15, long, 1),
+            ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 3.0} 4711 mass sampling", 1.0 if cold else 0.35, long, 1),
+            ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.8 if cold else 0.15, long, 1),
             ("lumped", f"hd/langevin {kT} {kT} 0.1 4711 mass lumped", None, longer, 10),
             ("vertex", f"hd/langevin {kT} {kT} 0.1 4711 mass vertex", None, longer, 10),
             ("lumped, hd/brownian", f"hd/brownian {kT} 4711 gamma_t {4 * math.pi / points} mass lumped", None, longer, 20)):
         if not name.startswith(options.only):
             continue
-        values = dict(level=level, mass=4 * math.pi / points, volume=4 * math.pi / 3, fix=fix, every=every)
+        values = dict(level=level, mass=4 * math.pi / points, volume=4 * math.pi / 3, fix=fix, every=every, modulus=0.5 if cold else 1.0)
         steps = max(200, int(steps * options.scale))
         try:
             if dt is None:

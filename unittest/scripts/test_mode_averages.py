@@ -13,7 +13,7 @@ create_box      1 box angle/types 1
 create_membrane 1 sphere 2 1.0 mass 0.1
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 volume 1000.0 init regularize 0.5 conformal
+pair_coeff      1 1 1.0 0.0 volume 1000.0 init regularize 1.0 conformal
 fix             1 all hd/langevin 0.05 0.05 1.5 4711 mass sampling
 timestep        0.3
 thermo          100
@@ -27,7 +27,7 @@ create_box      1 box angle/types 1
 create_membrane 1 plane 12 14 mass 0.9
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 regularize 0.5 conformal tension 0.2
+pair_coeff      1 1 1.0 0.0 regularize 1.0 conformal tension 0.2
 fix             1 all hd/langevin 0.05 0.05 1.5 4711 mass sampling
 timestep        0.3
 thermo          100

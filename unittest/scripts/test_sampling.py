@@ -12,7 +12,7 @@ create_box      1 box angle/types 1
 create_membrane 1 sphere 2 1.0 mass 0.1
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 volume 1000.0 init regularize 0.5 conformal
+pair_coeff      1 1 1.0 0.0 volume 1000.0 init regularize 1.0 conformal
 compute         e all pair helfrich
 compute         T all hd/temp
 compute_modify  T extra/dof 0
@@ -92,7 +92,7 @@ claim("hd/nve with the measure conserves energy", drift < 2e-3 * max(row["KinEng
 
 # === Wrong input
 
-NO_MESH = SCENE.replace(" regularize 0.5 conformal", "")
+NO_MESH = SCENE.replace(" regularize 1.0 conformal", "")
 for scene, fix, said in (
         (SCENE, "fix 1 all hd/langevin 0 0 1 4711 measure yes", "measure yes needs a temperature"),
         (SCENE, "fix 1 all hd/brownian 0 4711 gamma_t 1 measure yes", "measure yes needs a temperature"),

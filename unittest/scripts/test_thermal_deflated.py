@@ -25,7 +25,7 @@ create_box      1 box angle/types 1
 create_membrane 1 sphere 2 1.0 scale 0.6 0.6 2.0 mass {4 * math.pi / 162!r}
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 area 200 {4 * math.pi!r} volume 200 {0.578 * 4 * math.pi / 3!r} regularize 0.5 conformal
+pair_coeff      1 1 1.0 0.0 area 200 {4 * math.pi!r} volume 200 {0.578 * 4 * math.pi / 3!r} regularize 1.0 conformal
 min_style       membrane
 minimize        0 1e-4 500 5000
 compute         g all gyration

@@ -26,7 +26,7 @@ create_box      1 box angle/types 1
 create_membrane 1 plane {12 * size} {14 * size} mass {math.sqrt(0.75)!r}
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 regularize 0.5 conformal tension {tension}
+pair_coeff      1 1 1.0 0.0 regularize 1.0 conformal tension {tension}
 compute         m all hd/modes plane {NMAX}
 compute         s all membrane/shape
 compute         p all pressure NULL virial
