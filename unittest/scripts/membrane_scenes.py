@@ -108,8 +108,8 @@ TERMS = {
     "area/difference": ("0.0 0.0 area/difference 8.0 2.0 thickness 0.1",) * 2,
     "volume": ("0.0 0.0 volume 60.0 3.0",) * 2,
     "pressure": ("0.0 0.0 pressure 1.5",) * 2,
-    "regularize": ("10.0 0.0 regularize 1.0", "15.0 0.0 regularize 2.0"),
-    "regularize conformal": ("10.0 0.0 regularize 1.0 conformal", "15.0 0.0 regularize 2.0 conformal"),
+    "regularize": ("10.0 0.0 regularize 0.2", "15.0 0.0 regularize 0.4"),
+    "regularize conformal": ("10.0 0.0 regularize 0.2 conformal", "15.0 0.0 regularize 0.4 conformal"),
     "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 {GLOBAL}", f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
 }
 NEEDS_CLOSED = ("volume", "pressure")
