@@ -23,8 +23,6 @@
 #include "srd_solvent.h"
 #include "srd_surface_motion.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -42,12 +40,11 @@ SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double 
 {
   Counts counts;
   for (const auto &crossing : regions.find_crossings(solvent)) {
-    Vector3d normal;
-    const Vector3d nearest = nearest_point(crossing, normal);
+    const Vector3d nearest = nearest_point(crossing);
     const Vector3d x = Vector3d::Map(atom->x[crossing.atom]);
     if ((x - nearest).norm() <= contact) continue;
     ++counts.crossed;
-    if (put_beside(crossing, nearest, normal) || put_anywhere(crossing, step)) ++counts.rescued;
+    if (put_beside(crossing, nearest) || put_anywhere(crossing, step)) ++counts.rescued;
   }
   return counts;
 }
@@ -55,17 +52,14 @@ SurfaceRescue::Counts SurfaceRescue::put_back(const SRDSolvent &solvent, double 
 bigint SurfaceRescue::count(const SRDSolvent &solvent, double contact) const
 {
   bigint n = 0;
-  for (const auto &crossing : regions.find_crossings(solvent)) {
-    Vector3d normal;
-    n += (Vector3d::Map(atom->x[crossing.atom]) - nearest_point(crossing, normal)).norm() > contact;
-  }
+  for (const auto &crossing : regions.find_crossings(solvent))
+    n += (Vector3d::Map(atom->x[crossing.atom]) - nearest_point(crossing)).norm() > contact;
   return n;
 }
 
-// the point of a surface nearest to an atom, in the image nearest to it, and the normal there
+// the point of a surface nearest to an atom, in the image nearest to it
 
-Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing,
-                                      Vector3d &normal) const
+Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing) const
 {
   const auto &surface = motion.surface().faces();
   const auto &places = regions.places();
@@ -89,27 +83,26 @@ Vector3d SurfaceRescue::nearest_point(const SurfaceRegions::Crossing &crossing,
     if ((p - x).squaredNorm() >= least) continue;
     least = (p - x).squaredNorm();
     nearest = p;
-    normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
   }
   return nearest;
 }
 
 /* ----------------------------------------------------------------------
-   on its own side, close to where it crossed, heading away from the surface
+   on its own side, close to where it crossed: straight back over the surface, which at an edge leads in between
+   the faces. Close enough not to come through the next surface, but not closer: without slip an atom
+   flies to and fro in a valley, and so close to the bottom thousands of times in a step. It keeps its
+   velocity, and the surface takes the momentum when the two meet
 ------------------------------------------------------------------------- */
 
-bool SurfaceRescue::put_beside(const SurfaceRegions::Crossing &crossing, const Vector3d &nearest,
-                               const Vector3d &normal)
+bool SurfaceRescue::put_beside(const SurfaceRegions::Crossing &crossing, const Vector3d &nearest)
 {
   const int i = crossing.atom, region = regions.region[i];
-  Vector3d x;
-  for (double distance = 1.0e-6; distance < 0.5; distance *= 10.0)
+  const Vector3d back = (nearest - Vector3d::Map(atom->x[i])).normalized();
+  for (double distance = 0.1; distance > 0.5e-6; distance *= 0.1)
     for (double sign : {1.0, -1.0}) {
-      x = nearest + sign * distance * motion.surface().mesh_edge() * normal;
+      const Vector3d x = nearest + sign * distance * motion.surface().mesh_edge() * back;
       if (!regions.belongs(x.data(), atom->image[i], region)) continue;
       Vector3d::Map(atom->x[i]) = x;
-      const double speed = sign * Vector3d::Map(atom->v[i]).dot(normal);
-      if (speed < 0.0) Vector3d::Map(atom->v[i]) -= 2.0 * sign * speed * normal;
       return true;
     }
   return false;

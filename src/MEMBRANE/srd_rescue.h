@@ -21,7 +21,7 @@
 
 namespace LAMMPS_NS {
 
-/// Puts solvent that is on the wrong side of a surface back on its own.
+/// Puts solvent that is on the wrong side of a surface back on its own, with the velocity it has.
 class SurfaceRescue : protected Pointers {
  public:
   SurfaceRescue(class LAMMPS *, SurfaceMotion &, SurfaceRegions &);
@@ -40,9 +40,8 @@ class SurfaceRescue : protected Pointers {
   SurfaceMotion &motion;
   SurfaceRegions &regions;
 
-  Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &, Eigen::Vector3d &normal) const;
-  bool put_beside(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest,
-                  const Eigen::Vector3d &normal);
+  Eigen::Vector3d nearest_point(const SurfaceRegions::Crossing &) const;
+  bool put_beside(const SurfaceRegions::Crossing &, const Eigen::Vector3d &nearest);
   bool put_anywhere(const SurfaceRegions::Crossing &, bigint step);
 };
 

@@ -29,6 +29,10 @@ using namespace Membrane_TEST;
 
 namespace {
 
+constexpr double UNIT = 0.7;
+
+enum class TotalsOf { NONE, VOLUME, VOLUME_AND_LENGTH };
+
 struct Sampled {
   TriangleMesh mesh;
   Topology topology;
@@ -38,7 +42,7 @@ struct Sampled {
   std::shared_ptr<SharedReference> reference = std::make_shared<SharedReference>();
   std::unique_ptr<MassOperator> matrix;
 
-  explicit Sampled(TriangleMesh m, bool volume = true) :
+  explicit Sampled(TriangleMesh m, TotalsOf totals = TotalsOf::VOLUME) :
       mesh(std::move(m)), topology(topology_of(mesh)), part(topology), masses(mesh.points.size(), 1.0)
   {
     for (size_t v = 0; v < masses.size(); ++v) labels.push_back(v + 1);
@@ -49,21 +53,33 @@ struct Sampled {
     stiffness.shear.assign(mesh.faces.size(), 0.5);
     stiffness.stretch.assign(mesh.faces.size(), 0.0);
     stiffness.closed.assign(topology.num_components(), !mesh.is_periodic());
-    if (volume) {
+    if (totals != TotalsOf::NONE) {
       StiffnessReference::Total total = {100.0, std::vector<Vector3d>(masses.size(), Vector3d::Zero())};
       for (const Face &face : mesh.faces)
         for (int v : face)
           total.gradient[v] += mesh.edge(face[0], face[1]).cross(mesh.edge(face[0], face[2])) / 6.0;
       stiffness.totals.push_back(total);
     }
+    if (totals == TotalsOf::VOLUME_AND_LENGTH) stiffness.totals.push_back({SOFT, length()});
     reference->now = std::make_shared<const StiffnessReference>(stiffness);
     MassOperator::Settings settings;
     settings.kind = MassKind::SAMPLING;
     settings.reference = reference;
-    settings.unit = 0.7;
+    settings.unit = UNIT;
     matrix = make_mass({topology, part, masses, labels}, settings);
   }
   int size() const { return part.owned; }
+
+  // how long the body is along z, and a stiffness of that like the one that bending and regularize give an
+  // icosahedron; that of the volume is far larger, nearly infinite
+
+  static constexpr double SOFT = 3.0;
+  std::vector<Vector3d> length() const
+  {
+    std::vector<Vector3d> gradient;
+    for (const Vector3d &p : mesh.points) gradient.emplace_back(0.0, 0.0, p.z());
+    return gradient;
+  }
 
   // M^-1, column by column
 
@@ -98,7 +114,7 @@ std::vector<TriangleMesh> some_meshes()
 TEST(SamplingMass, TheInverseIsSymmetricAndHasOneZeroForEachRotation)
 {
   for (const TriangleMesh &mesh : some_meshes()) {
-    Sampled body(mesh, !mesh.is_periodic());
+    Sampled body(mesh, mesh.is_periodic() ? TotalsOf::NONE : TotalsOf::VOLUME);
     const Eigen::MatrixXd inverse = body.inverse();
     const double scale = inverse.norm();
     EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-10 * scale);
@@ -110,9 +126,26 @@ TEST(SamplingMass, TheInverseIsSymmetricAndHasOneZeroForEachRotation)
   }
 }
 
+// Woodbury's formula for one more: the inverse loses Y Y^T/(1/K + g.Y), Y = M^-1 g
+
+TEST(SamplingMass, ATotalAddsItsStiffness)
+{
+  Sampled without(icosphere(0, 1.0)), with(icosphere(0, 1.0), TotalsOf::VOLUME_AND_LENGTH);
+  const std::vector<Vector3d> length = without.length();
+  Eigen::VectorXd g(3 * without.size());
+  for (int i = 0; i < without.size(); ++i) g.segment<3>(3 * i) = length[without.part.vertices[i]];
+  const Eigen::MatrixXd inverse = without.inverse();
+  const Eigen::VectorXd y = inverse * g;
+  const double own = 1.0 / g.dot(y), added = Sampled::SOFT / UNIT;
+  EXPECT_LT(added, 2.0 * own);
+  EXPECT_LT(own, 2.0 * added);
+  const Eigen::MatrixXd expected = inverse - y * y.transpose() / (1.0 / own + 1.0 / added);
+  EXPECT_LT((with.inverse() - expected).norm(), 1e-10 * expected.norm());
+}
+
 TEST(SamplingMass, NoiseHasTheInverseAsCovariance)
 {
-  Sampled body(icosphere(0, 1.0));
+  Sampled body(icosphere(0, 1.0), TotalsOf::VOLUME_AND_LENGTH);
   const int n = 3 * body.size(), samples = how_many(60000, 600000L);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   const double kT = 0.4;
@@ -135,7 +168,7 @@ TEST(SamplingMass, NoiseHasTheInverseAsCovariance)
 TEST(SamplingMass, MultiplyUndoesSolve)
 {
   for (const TriangleMesh &mesh : some_meshes()) {
-    Sampled body(mesh, !mesh.is_periodic());
+    Sampled body(mesh, mesh.is_periodic() ? TotalsOf::NONE : TotalsOf::VOLUME);
     const VertexField p = rough(body.size());
     VertexField v(body.size()), q(body.size()), w(body.size());
     body.matrix->solve(p, v);

@@ -148,7 +148,7 @@ def measured(runs, times, curve):
     return x, math.sqrt((n - 1) / n * sum((y - x) ** 2 for y in left_out))
 
 
-# === Scenes. Tension 3/2 kT per area of a control point keeps the frame without tension, see the Howto
+# === Scenes. The fixes take out the measure of the mesh, so the frame has no tension, see the Howto
 
 COMMON = """
 units           lj
@@ -160,7 +160,7 @@ comm_modify     cutoff 7.0
 {create}
 group           membrane type 1
 pair_style      helfrich
-pair_coeff      1 1 {kc} 0.0 tension {tension} regularize {regularize} {hold}
+pair_coeff      1 1 {kc} 0.0 regularize {regularize} {hold}
 fix             1 membrane hd/langevin 1.0 1.0 1.0 {seed}
 timestep        {DT}
 thermo          0
@@ -174,7 +174,7 @@ variable        Z atom f_start[3]
 {displace}
 create_solvent  2 both {M} {seed}
 group           solvent type 2
-pair_coeff      1 1 {kc} 0.0 tension {tension} regularize {regularize}
+pair_coeff      1 1 {kc} 0.0 regularize {regularize}
 fix             1 membrane hd/nve
 fix             2 solvent srd/mesh 1 membrane 1.0 1.0 {seed} angle {DEGREES} shift yes {seed} tstat yes
 compute         u membrane hd/modes {modes}
@@ -273,8 +273,8 @@ if __name__ == "__main__":
                      for shear in (False, True))
     runs, radii = [], []
     for i in range(COUNT["vesicle"]):
-        rows = rows_of(SPHERE, (-1) ** i * amplitude, seed=4711 + i, kc=kc, tension=1.5 * count / area,
-                       regularize=regularize, every=25, steps=round(1.2 / theory.rate / DT))
+        rows = rows_of(SPHERE, (-1) ** i * amplitude, seed=4711 + i, kc=kc, regularize=regularize, every=25,
+                       steps=round(1.2 / theory.rate / DT))
         runs.append([sum(row[f"c_u[{k}][4]"] for k in (5, 6, 8)) / math.sqrt(3) for row in rows])
         radii += [row["c_u[1]"] for row in rows]
     times = [row["Step"] * DT for row in rows]
@@ -290,7 +290,7 @@ if __name__ == "__main__":
     theory = Plane(kc, q, 16, 16 / 12, 10 * count / area)
     runs = []
     for i in range(COUNT["sheet"]):
-        rows = rows_of(PLANE, amplitude, seed=4711 + i, kc=kc, tension=1.5 * count / area, regularize=10, every=50,
+        rows = rows_of(PLANE, amplitude, seed=4711 + i, kc=kc, regularize=10, every=50,
                        steps=round(1.5 / theory.rate / DT))
         runs.append([row["c_u[3][4]"] for row in rows])
     report("sheet", theory, runs, [row["Step"] * DT for row in rows], "1/tau = kc q^3/(4 eta)")
