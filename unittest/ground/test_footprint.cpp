@@ -248,6 +248,7 @@ TEST(Footprint, TheVirialIsTheDerivativeByStrain)
         const Matrix3d virial = scene.footprints.take_forces(force);
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) {
+            if ((3 * i + j + foot.face) % STRIDE) continue;
             const double by_strain = derivative(
                 [&](double s) {
                   Matrix3d stretch = Matrix3d::Identity();
@@ -397,7 +398,7 @@ TEST(Footprint, NoFaceInReachIsMissed)
     const bool small = mesh.points.size() == 4;
     Random random(47);
     for (double radius : {0.4, 0.9, 1.6, 2.1}) {
-      if (small && radius > 1.0) continue;
+      if ((small && radius > 1.0) || (SANITIZED && radius != 0.9)) continue;
       for (const SurfacePoint &foot : feet_on(scene, how_many(30, 1000), random)) {
         const Where at = above(scene, foot, 0.15 * random.symmetric(), random);
         const BruteForce expected = brute_force(scene, at.x, radius);
