@@ -168,6 +168,56 @@ off = [apart(ends["rigid correct no"], ends[f"spring {k}"]) for k in (8000, 3200
 claim("springs tend to rigid as 1/K", all(3.0 < a / b < 5.3 for a, b in zip(off, off[1:])),
       " ".join(f"{d:.2e}" for d in off))
 
+# === The forces of the correction are derivatives of its energy: heavy particles in a crowd, one central difference each
+
+CROWD = """
+units           lj
+atom_style      membrane_cp
+region          box block -8 8 -8 8 -8 8
+create_box      2 box angle/types 1
+create_membrane 1 sphere 2 3.5 scale 1.0 1.2 0.9
+set             type 1 mass 1.0
+create_atoms    2 single 0.3 0.2 3.1
+create_atoms    2 single 0.8 0.1 3.1
+create_atoms    2 single 0.1 0.9 3.0
+create_atoms    2 single 2.2 0.9 2.2
+set             type 2 mass 30.0
+group           mem type 1
+group           p type 2
+pair_style      helfrich
+pair_coeff      1 1 20.0 0.0 regularize 10
+displace_atoms  mem random 0.1 0.1 0.1 77
+fix             1 mem hd/nve tol 1e-13 measure 1.0
+fix             2 p nve
+fix             b p hd/bind mem max 2.0 hold rigid correct {correct}
+thermo_style    custom step f_b
+thermo_modify   norm no format float %.16g
+dump            1 all custom 1 f.dump id fx fy fz
+dump_modify     1 format float %.17g
+run             0
+undump          1
+"""
+force = {}
+for correct in ("yes", "no"):
+    run(CROWD.format(correct=correct))
+    force[correct] = {int(row[0]): row[1:] for row in frames("f.dump")[0]}
+change = {i: [a - b for a, b in zip(force["yes"][i], force["no"][i])] for i in force["yes"]}
+points = sorted((i for i in change if i <= 162), key=lambda i: -sum(c * c for c in change[i]))[:3]
+worst = most = 0.0
+moves = ""
+for atom in (163, 164, 165, *points):
+    moves += f"group one clear\ngroup one id {atom}\n" + "".join(
+        f"displace_atoms one move {step}\nrun 0\n" for step in ("1e-4 0 0", "-2e-4 0 0", "1e-4 1e-4 0", "0 -2e-4 0",
+                                                                "0 1e-4 1e-4", "0 0 -2e-4")) + "displace_atoms one move 0 0 1e-4\n"
+energy = [row["f_b"] for row in thermo(run(CROWD.format(correct="yes") + "group one empty\n" + moves))[-36:]]
+for n, atom in enumerate((163, 164, 165, *points)):
+    for k in range(3):
+        plus, minus = energy[6 * n + 2 * k:6 * n + 2 * k + 2]
+        worst = max(worst, abs(change[atom][k] + (plus - minus) / 2e-4))
+        most = max(most, abs(change[atom][k]))
+claim("forces of the correction on particles and control points are its derivatives to 1e-6", worst < 1e-6 * most,
+      f"{worst:.1e} of {most:.3f}")
+
 # === Frozen surfaces: geodesics
 
 FROZEN = """
