@@ -47,7 +47,7 @@ static constexpr double PRECISION = 1.0e-10;
 FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membranebit(0), max_distance(0.0), leaflet(0), height(0.0), rigid(false),
     automatic(true), correct(Correct::DEFAULT), spring(0.0), diffusion(0.0), temperature(0.0), seed(0), carried(false),
-    turning(0.0), turning_temperature(0.0), turning_seed(0), curvature(lmp), correcting(false), noise_steps(0),
+    turning(0.0), turning_temperature(0.0), turning_seed(0), curvature(lmp), correcting(false), mover(nullptr), noise_steps(0),
     mesh(lmp, "Fix hd/bind"), footprint_energy(0.0), total(0), precision(0.0), chosen_for(0.0), chosen_count(0),
     energy(0.0), squares(0.0), farthest(0.0), phase(0.0), work(nullptr), answer(nullptr), exchanged(nullptr),
     allocated(0)
@@ -102,12 +102,12 @@ void FixHDBound::init()
     make_surface();
   curvature.init(*mesh, membranebit);
   if (precision == 0.0) precision = PRECISION * limit->mean_edge();
-  if (const FixHDBase *mover = carried ? FixHDBase::of_group(lmp, membranebit, "Fix hd/bind") : nullptr)
-    if (!(mover->drag_coefficient() > 0.0))
-      error->all(FLERR,
-                 "Fix hd/bind friction membrane needs a membrane without inertia, and fix {} ({}) moves it: use fix "
-                 "hd/brownian",
-                 mover->id, mover->style);
+  mover = FixHDBase::of_group(lmp, membranebit, "Fix hd/bind");
+  if (carried && mover && !(mover->drag_coefficient() > 0.0))
+    error->all(FLERR,
+               "Fix hd/bind friction membrane needs a membrane without inertia, and fix {} ({}) moves it: use fix "
+               "hd/brownian",
+               mover->id, mover->style);
   check_group();
   bind_free_atoms();
   check_integrators();
@@ -285,7 +285,8 @@ void FixHDBound::hold(int vflag)
     if (correcting) correct_metric();
     return;
   }
-  if (carried) drag_membrane();
+  const bool dragging = carried && update->whichflag == 1;    // a minimization has energies alone
+  if (dragging) drag_membrane();
   std::vector<double> pull(feet.size());
   for (size_t a = 0; a < feet.size(); ++a) {
     const int i = feet[a].atom;
@@ -296,7 +297,7 @@ void FixHDBound::hold(int vflag)
     for (int k = 0; k < 3; ++k) atom->f[i][k] += pull[a] * n[k];
     tally_pull(feet[a], pull[a]);
   }
-  if (carried) return;    // what holds an atom moves it alone, and what pulls it pulls the membrane
+  if (dragging) return;    // what holds an atom moves it alone, and what pulls it pulls the membrane
   spread(pull);
   for (int i = 0; i < atom->nlocal; ++i)
     for (int k = 0; k < 3; ++k) atom->f[i][k] -= work[i][k];

@@ -127,6 +127,7 @@ class FixHDBound : public Fix {
   enum Output { STIFFNESS, COUNT, RMS, LARGEST, PHASE, FOOTPRINTS, NUM_OUTPUT };
 
   bool correcting;    // in this run
+  class FixHDBase *mover;    // of the membranes, in this run, or null
   bigint noise_steps;
 
   LocalMesh mesh;

@@ -45,11 +45,11 @@ using Membrane_NS::Derivative;
    (doc/src/Derivation_bound.rst). Solutions with M: one for three particles.
 ------------------------------------------------------------------------- */
 
+// mass sampling is another matrix for each direction, and no mass
+
 double FixHDBound::bath_kT() const
 {
-  for (const FixHDBase *integrator : integrators(false))
-    if (integrator->sampled_kT() > 0.0 && !integrator->sampling()) return integrator->sampled_kT();
-  return 0.0;    // mass sampling is another matrix for each direction, and no mass
+  return mover && !mover->sampling() && !(mover->drag_coefficient() > 0.0) ? mover->sampled_kT() : 0.0;
 }
 
 void FixHDBound::correct_metric()

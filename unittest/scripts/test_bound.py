@@ -308,6 +308,10 @@ claim("a run continued from a restart file is the same to the last digit",
       [r["TotEng"] for r in rows[-2:]] == [r["TotEng"] for r in again[-2:]]
       and rows[-1]["f_b"] == again[-1]["f_b"], f"{rows[-1]['TotEng']} {again[-1]['TotEng']}")
 
+other = thermo(run(CONTINUED + "run 200\n"))
+off = abs(other[-1]["TotEng"] - rows[-1]["TotEng"])
+claim("a restart file of two ranks continues on one, to 1e-8", off < 1e-8, f"{off:.1e}")
+
 # === Drift
 
 count = 100000 if LONG else 6000

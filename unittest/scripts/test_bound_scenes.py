@@ -162,6 +162,12 @@ rows = thermo(text)
 claim("minimization goes on with bound particles", rows[-1]["f_b[2]"] == 20 and rows[-1]["PotEng"] < rows[-2]["PotEng"]
       and rows[-1]["f_b[4]"] < 0.05, f"{rows[-2]['PotEng']:.4f} to {rows[-1]['PotEng']:.4f}, off by {rows[-1]['f_b[4]']:.1e}")
 
+DRAGGED = sheet(every=100).replace("fix             1 mem hd/nve tol 1e-12 measure 1.0", "fix 1 mem hd/brownian 1.0 5 gamma_t 1000")
+DRAGGED = DRAGGED.replace("fix             2 p nve\n", "").replace(" leaflet both height 0.3\nhd", " leaflet both height 0.3 brownian 1.0 0.01 5 friction membrane\nhd")
+rows = thermo(run(DRAGGED + "run 100\nmin_style cg\nminimize 0 1e-6 200 2000\n"))
+claim("    and with drag against the membrane, of which a minimization knows nothing",
+      rows[-1]["PotEng"] < rows[-2]["PotEng"] and rows[-1]["f_b[4]"] < 0.05, f"{rows[-2]['PotEng']:.4f} to {rows[-1]['PotEng']:.4f}")
+
 rows = thermo(run(sheet(every=50) + "fix d all deform 1 x erate 0.02 xy erate 0.01 remap x\nrun 500\n", ranks=2))
 claim("a box that is deformed: all stay bound", rows[-1]["f_b[2]"] == 20 and max(r["f_b[4]"] for r in rows) < 0.3,
       f"at most {max(r['f_b[4]'] for r in rows):.3f} off")
