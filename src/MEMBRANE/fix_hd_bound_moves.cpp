@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -148,7 +149,15 @@ void FixHDBound::couple()
   torque.assign(members.size(), 0.0);
   footprint_energy = 0.0;
   clear_work();
-  for (size_t a = 0; a < feet.size(); ++a) {
+
+  // neighbours one after the other, since they share faces; as above not in LAMMPS' order
+
+  std::vector<int> order(feet.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
+    return sites[feet[a].atom].point.face < sites[feet[b].atom].point.face;
+  });
+  for (int a : order) {
     const int i = feet[a].atom;
     limit->look_from(i);
     auto director = Vector3d::Map(sites[i].director);
