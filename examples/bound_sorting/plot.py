@@ -5,7 +5,7 @@ matplotlib a picture, sorting.png. Theory is the mean of exp(-E/kT) over the pro
 import math
 
 L, BINS, BLOCKS = 15.0, 12, 8            # the length of a wave
-a, kc, c0p = 2.0, 20.0, 0.25             # footprint 2 of in.sorting: E = -a kc c0p 2H and a constant
+a, kc, c0p = 1.0, 20.0, 0.3             # footprint 2 of in.sorting: E = -a kc c0p 2H and a constant
 KINDS = {2: "coats", 3: "crescents", 4: "probes"}
 
 frames = []

@@ -186,6 +186,7 @@ class FixHDBound : public Fix {
   void drag_membrane();
   void diffuse();
   void couple();
+  void take_footprints(int);
   void give_director(int, const Eigen::Vector3d &normal);
   void turn_directors();
   std::vector<class FixHDBase *> integrators(bool overdamped) const;
