@@ -58,7 +58,7 @@ FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
   extscalar = 1;
   extvector = 0;
   size_vector = NUM_OUTPUT;
-  energy_global_flag = virial_global_flag = 1;
+  energy_global_flag = virial_global_flag = virial_peratom_flag = 1;
   thermo_energy = thermo_virial = 1;
   respa_level_support = 1;
   restart_global = restart_peratom = 1;
@@ -76,8 +76,10 @@ FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
 FixHDBound::~FixHDBound()
 {
   if (copymode) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
+  if (modify->get_fix_by_id(id) == this) {    // and not a word of the command that stopped its making
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+  }
   memory->destroy(work);
   memory->destroy(answer);
 }
