@@ -58,7 +58,7 @@ FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
   extscalar = 1;
   extvector = 0;
   size_vector = NUM_OUTPUT;
-  energy_global_flag = virial_global_flag = 1;
+  energy_global_flag = virial_global_flag = virial_peratom_flag = 1;
   thermo_energy = thermo_virial = 1;
   respa_level_support = 1;
   restart_global = restart_peratom = 1;

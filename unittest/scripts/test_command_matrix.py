@@ -42,16 +42,16 @@ fix             i1 nve hd/nve
 fix             i2 langevin hd/langevin 1.0 1.0 1.0 4711
 fix             i3 brownian hd/brownian 1.0 4711 gamma_t 50
 fix             p bound nve
-fix             b bound hd/bind nve hold spring 2000 height 0.05 footprint 3 0.2 20.0 0.5 1.0
-fix             m all hd/tension 2 1.0 4711 xyz pressure 0.1 step 1e-8 burn 0
+fix             h bound hd/bind nve hold spring 2000 height 0.05 footprint 3 0.2 20.0 0.5 1.0
+fix             b all hd/tension 2 1.0 4711 xyz pressure 0.1 step 1e-8 burn 0
 fix             s solvent srd/mesh 2 walls 1.0 1.0 4711 shift yes 9127 collision {slip}
 """
 COMPUTES = """
 compute         hf all pair helfrich
 compute         t walls hd/temp
 compute         bt bound hd/temp
-compute         site bound hd/surface/atom b
-compute         density bound hd/density b
+compute         site bound hd/surface/atom h
+compute         density bound hd/density h
 compute         u nve hd/modes sphere 4
 compute         shape points membrane/shape
 compute         k points membrane/curvature/atom
@@ -63,8 +63,8 @@ compute         all all reduce sum v_place
 """
 THERMO = """
 thermo_style    custom step atoms pe c_hf[1] c_hf[2] c_hf[3] c_hf[4] c_hf[5] c_hf[6] c_t c_u[1] c_shape[1] c_shape[2] &
-                c_k2[1] c_k2[2] c_all vol f_m f_m[1] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17] &
-                f_b f_b[2] f_b[4] f_b[6] c_bt c_b2[1] c_b2[2] c_b2[3] c_density[1][3]
+                c_k2[1] c_k2[2] c_all vol f_b f_b[1] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17] &
+                f_h f_h[2] f_h[4] f_h[6] c_bt c_b2[1] c_b2[2] c_b2[3] c_density[1][3]
 thermo_modify   norm no format float %24.17g
 """
 DUMP = "dump            d points membrane/image 1 {image}.*.ppm type type size 40 40\n"
@@ -75,7 +75,7 @@ min_style       membrane
 """
 RUN = "run 3\n"
 
-REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "p", "b", "m", "s")) + FIXES
+REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "p", "h", "b", "s")) + FIXES
 UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "b2", "k2", "x", "k", "shape", "u", "density", "site", "bt", "t", "hf")) + COMPUTES + THERMO
 FOURTH = """
 region          gap sphere 0 0 3 1.4
@@ -93,7 +93,7 @@ unfix           s
 uncompute       b2
 uncompute       site
 uncompute       density
-unfix           b
+unfix           h
 replicate       1 2 1
 region          lower block INF INF INF 3 INF INF
 group           lower region lower
@@ -104,7 +104,7 @@ group           nve clear
 group           nve molecule 1
 group           walls clear
 group           walls union nve langevin
-""" + "\n".join(FIXES.splitlines()[-2:]) + "".join(
+""" + "\n".join(FIXES.splitlines()[k] for k in (-3, -1)) + "".join(
     "\n" + line for line in COMPUTES.splitlines() if "compute         site" in line or "density" in line or "b2" in line) + THERMO
 COMMANDS = {
     "nothing": "",
@@ -119,7 +119,7 @@ COMMANDS = {
     "create_bound": "create_bound 5 3 nve 12 height 0.05 mass 2.0\ngroup bound type 3",
     "delete_atoms of bound atoms": "variable odd atom id%2==1\ngroup odd variable odd\n"
                                    "group gone intersect odd bound\ndelete_atoms group gone compress no",
-    "write_bound": "write_bound b w.sites",
+    "write_bound": "write_bound h w.sites",
     "reset_atoms id": "reset_atoms id",
     "reset_atoms id sort": "reset_atoms id sort yes",
     "reset_timestep": "reset_timestep 0",
