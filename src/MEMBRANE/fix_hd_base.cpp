@@ -318,9 +318,10 @@ void FixHDBase::report_runaway(tagint id_of_point)
     reason += fmt::format(", though the stability limit was about {:.3g} when the run began{}",
                           limit, shape_lost_at(id_of_point));
   error->one(FLERR,
-             "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
+             "Fix {}: control point {} moved further than {} in one step: {}; "
              "hd_timestep finds the limit precisely",
-             style, id_of_point, MOST_DRIFT, reason);
+             style, id_of_point,
+             sampling() ? "a quarter of a membrane's radius" : fmt::format("{} of an edge", MOST_DRIFT), reason);
 }
 
 // a mesh that has lost its shape is stable for shorter timesteps only
