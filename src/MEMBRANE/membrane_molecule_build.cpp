@@ -124,16 +124,16 @@ void add_proteins(const std::vector<PlacedProtein> &proteins, const FixedAtoms &
   }
 }
 
-void name_clashes(const LipidCrowd &crowd, const LipidCrowd::Report &state, BuildReport &report)
+void name_clashes(const LipidCrowd &crowd, const LipidCrowd::Report &state, const Vector3d &origin, BuildReport &report)
 {
   for (int i : state.which) {
     if (report.clashing.size() == MOST_NAMED) return;
-    const Vector3d &x = crowd.lipids[i].x;
+    const Vector3d x = crowd.grid().fold(crowd.lipids[i].x - origin) + origin;
     report.clashing.push_back(text("%s near %.1f %.1f %.1f", crowd.species_of(i).name.c_str(), x[0], x[1], x[2]));
   }
 }
 
-void relax(LipidCrowd &crowd, BuildReport &report)
+void relax(LipidCrowd &crowd, const Vector3d &origin, BuildReport &report)
 {
   LipidCrowd::Report state = crowd.report();
   report.clashes_before = state.lipids;
@@ -162,7 +162,7 @@ void relax(LipidCrowd &crowd, BuildReport &report)
   state = crowd.report();
   report.clashes = state.lipids;
   report.closest = state.closest;
-  name_clashes(crowd, state, report);
+  name_clashes(crowd, state, origin, report);
 }
 
 }    // namespace
@@ -231,7 +231,7 @@ Structure Membrane_NS::build_structure(const LimitSurface &surface, const Vector
   if (!report.exact) {
     const auto displaced = fit_numbers(crowd, report.numbers);
     report.displaced = displaced[OUTER] + displaced[INNER];
-    relax(crowd, report);
+    relax(crowd, origin, report);
   } else {
     const auto state = crowd.report();
     report.clashes = report.clashes_before = state.lipids;

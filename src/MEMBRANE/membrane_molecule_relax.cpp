@@ -34,7 +34,8 @@ static constexpr double LONGEST = 0.3;         // Angstrom: of a step
 static constexpr double WIDEST = LONGEST / 8.0;    // radian
 static constexpr double TO_HEIGHT = 0.02;      // of what is missing, in a step
 static constexpr double INERTIA = 5.0;         // Angstrom^2 that keeps thin lipids from spinning
-static constexpr double SKIN = 1.0;            // Angstrom: of lists of neighbours
+static constexpr double SKIN = 1.6;            // Angstrom: of lists of neighbours
+static constexpr double FEW = 0.02;            // of all lipids: lists of these alone are made anew
 static constexpr double STRAY = 1.5;           // Angstrom: how far the expansion of the height is used
 static constexpr double DRIFT = 4.0;           // Angstrom: how far Monte Carlo takes a lipid from where it was
 
@@ -67,11 +68,10 @@ struct Anchor {
   }
 };
 
-/// Pairs of this rank's atoms with others, in the image that was nearest.
+/// Pairs of the atoms of a lipid with others, in the image that was nearest.
 struct Neighbours {
   std::vector<int> start, atom;
-  std::vector<unsigned char> image;    // in `shifts`
-  std::vector<Vector3d> shifts;
+  std::vector<unsigned char> image;    // of the box, see LipidCrowd::relax()
 };
 
 struct Motion {
@@ -102,42 +102,61 @@ double LipidCrowd::relax(int steps)
   const Matrix3d inverse = surface.lattice().inverse();
   BeadGrid near = grid();
   std::vector<Anchor> anchors(last - first);
-  std::vector<Motion> listed(n);    // where lipids were when lists were made
-  Neighbours lists;
-  bool stale = true;
+  std::vector<Motion> listed(n);    // where lipids were when they were last found to be stale
+  std::vector<char> stale(n, 1);
+  std::vector<Neighbours> lists(last - first);
+  std::vector<Vector3d> shifts(1, Vector3d::Zero());
   double energy = 0.0;
 
-  auto make_lists = [&]() {
-    near.fill(all.x, largest_soft_ + SKIN);
-    lists.start.assign(1, 0);
-    lists.atom.clear();
-    lists.image.clear();
-    lists.shifts.assign(1, Vector3d::Zero());
-    for (int a = start[first]; a < start[last]; ++a) {
+  auto list = [&](int i) {
+    Neighbours &of = lists[i - first];
+    of.start.assign(1, 0);
+    of.atom.clear();
+    of.image.clear();
+    for (int a = start[i]; a < start[i + 1]; ++a) {
       near.near(all.x[a], [&](int b, const Vector3d &d, double d2) {
-        if (all.owner[b] == all.owner[a]) return;
+        if (all.owner[b] == i) return;
         const double reach = soft(all.kind[a], all.kind[b]) + SKIN;
         if (d2 >= reach * reach) return;
         unsigned char image = 0;
         if (surface.is_periodic()) {
           const Vector3d shift = d - (all.x[b] - all.x[a]);
-          const size_t known = lists.shifts.size();
-          while (image < known && (lists.shifts[image] - shift).squaredNorm() > 1.0e-6) ++image;
-          if (image == known) lists.shifts.push_back(surface.lattice() * (inverse * shift).array().round().matrix());
+          while (image < shifts.size() && (shifts[image] - shift).squaredNorm() > 1.0e-6) ++image;
+          if (image == shifts.size()) shifts.push_back(surface.lattice() * (inverse * shift).array().round().matrix());
         }
-        lists.atom.push_back(b);
-        lists.image.push_back(image);
+        of.atom.push_back(b);
+        of.image.push_back(image);
       });
-      lists.start.push_back(static_cast<int>(lists.atom.size()));
+      of.start.push_back(static_cast<int>(of.atom.size()));
     }
-    for (int i = 0; i < n; ++i) listed[i] = {lipids[i].x, lipids[i].turn};
-    stale = false;
+  };
+
+  // Lists of lipids that have gone more than SKIN/4 from where they were, and of those they are near to now. So no
+  // lipid goes further than SKIN/2 between two lists that it is in, and two no further than SKIN.
+
+  auto make_lists = [&]() {
+    near.fill(all.x, largest_soft_ + SKIN);
+    std::vector<char> affected(stale);
+    const bool few = std::count(stale.begin(), stale.end(), 1) < FEW * n;
+    for (int i = 0; i < n; ++i) {
+      if (!stale[i]) continue;
+      listed[i] = {lipids[i].x, lipids[i].turn};
+      for (int a = start[i]; few && a < start[i + 1]; ++a)
+        near.near(all.x[a], [&](int b, const Vector3d &, double) {
+          if (all.owner[b] >= 0) affected[all.owner[b]] = 1;
+        });
+    }
+    for (int i = first; i < last; ++i)
+      if (!few || affected[i]) list(i);
+    if (!few)
+      for (int i = 0; i < n; ++i) listed[i] = {lipids[i].x, lipids[i].turn};
+    std::fill(stale.begin(), stale.end(), 0);
   };
 
   std::vector<Motion> mine(last - first), moved;
   std::vector<Vector3d> force;
   for (int step = 0; step < steps; ++step) {
-    if (stale) make_lists();
+    if (std::find(stale.begin(), stale.end(), 1) != stale.end()) make_lists();
     energy = 0.0;
     for (int i = first; i < last; ++i) {
       PlacedLipid &lipid = lipids[i];
@@ -145,12 +164,13 @@ double LipidCrowd::relax(int steps)
       Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
       Matrix3d inertia = INERTIA * Matrix3d::Identity();
       bool pushed = false;
+      const Neighbours &near_by = lists[i - first];
       for (int a = start[i]; a < start[i + 1]; ++a) {
         Vector3d f = Vector3d::Zero();
-        const int row = a - start[first];
-        for (int p = lists.start[row]; p < lists.start[row + 1]; ++p) {
-          const int b = lists.atom[p];
-          const Vector3d d = all.x[b] - all.x[a] + lists.shifts[lists.image[p]];
+        const int row = a - start[i];
+        for (int p = near_by.start[row]; p < near_by.start[row + 1]; ++p) {
+          const int b = near_by.atom[p];
+          const Vector3d d = all.x[b] - all.x[a] + shifts[near_by.image[p]];
           const double reach = soft(all.kind[a], all.kind[b]), d2 = d.squaredNorm();
           if (d2 >= reach * reach) continue;
           const double length = std::sqrt(d2) + 1.0e-9, w = 1.0 - length / reach;
@@ -193,6 +213,7 @@ double LipidCrowd::relax(int steps)
     moved = concatenate(team_, mine);
     for (int i = 0; i < n; ++i) {
       PlacedLipid &lipid = lipids[i];
+      if (moved[i].x == lipid.x && moved[i].turn.coeffs() == lipid.turn.coeffs()) continue;
       lipid.x = moved[i].x;
       lipid.turn = moved[i].turn;
       const Matrix3d turn = lipid.turn.toRotationMatrix();
@@ -200,7 +221,7 @@ double LipidCrowd::relax(int steps)
       for (size_t k = 0; k < shape.size(); ++k) all.x[start[i] + k] = lipid.x + turn * shape[k];
       const double way = (lipid.x - listed[i].x).norm() +
           2.0 * radius[i] * (lipid.turn.inverse() * listed[i].turn).vec().norm();
-      stale |= 2.0 * way > SKIN;
+      stale[i] = 4.0 * way > SKIN;
     }
   }
   double total = 0.0;
