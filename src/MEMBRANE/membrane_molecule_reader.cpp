@@ -142,6 +142,7 @@ class ResidueCounter {
 
   void count(std::string &text)
   {
+    if (text.size() < 54) fail("the line ends before column 54, where coordinates end; the file may be cut short");
     for (int k = 0; k < 3; ++k)
       if (!is_number(trimmed(text, 30 + 8 * k, 8)))
         fail("there is no number for " + std::string(1, "xyz"[k]) + " in columns " + std::to_string(31 + 8 * k) + " to " +
