@@ -23,8 +23,21 @@ BONDS = ((1, 0, 1), (1, 1, 2), (2, 2, 3), (1, 2, 4), (1, 4, 5), (1, 5, 6), (1, 6
 ANGLES = ((2, 1, 2, 3), (1, 1, 2, 4), (1, 2, 4, 5), (1, 4, 5, 6), (1, 5, 6, 7), (1, 3, 8, 9), (1, 8, 9, 10), (1, 9, 10, 11))
 
 
-def start(path="patch.start", side=SIDE):
+def lattice(side):
+    """Places of lipids upright, each turned at random."""
     random.seed(1)
+    places = []
+    for m in range(2 * side * side):
+        up = 1 if m < side * side else -1
+        turn = random.uniform(0, 2 * math.pi)
+        middle = [(m % side + 0.5) * SPACING, (m // side % side + 0.5) * SPACING]
+        for x, z in zip(X, Z):
+            place = (middle[0] + x * math.cos(turn), middle[1] + up * x * math.sin(turn), up * z)
+            places.append([value + random.gauss(0, 0.2) for value in place])
+    return places
+
+
+def start(path="patch.start", side=SIDE):
     lipids, beads = 2 * side * side, len(NAMES)
     with open(path, "w") as file:
         file.write(f"lipids on a lattice\n\n{beads * lipids} atoms\n{len(BONDS) * lipids} bonds\n{len(ANGLES) * lipids} angles\n"
@@ -32,14 +45,8 @@ def start(path="patch.start", side=SIDE):
                    f"{-HEIGHT / 2} {HEIGHT / 2} zlo zhi\n\nMasses\n\n")
         file.writelines(f"{t + 1} 72 # {name}\n" for t, name in enumerate(TYPE_NAMES))
         file.write("\nAtoms # molecular\n\n")
-        for m in range(lipids):
-            up = 1 if m < lipids // 2 else -1
-            turn = random.uniform(0, 2 * math.pi)
-            middle = [(m % side + 0.5) * SPACING, (m // side % side + 0.5) * SPACING]
-            for b in range(beads):
-                x = (middle[0] + X[b] * math.cos(turn), middle[1] + up * X[b] * math.sin(turn), up * Z[b])
-                x = [value + random.gauss(0, 0.2) for value in x]
-                file.write(f"{m * beads + b + 1} {m + 1} {TYPES[b]} {x[0]:.4f} {x[1]:.4f} {x[2]:.4f}\n")
+        for i, x in enumerate(lattice(side)):
+            file.write(f"{i + 1} {i // beads + 1} {TYPES[i % beads]} {x[0]:.4f} {x[1]:.4f} {x[2]:.4f}\n")
         for title, terms in (("Bonds", BONDS), ("Angles", ANGLES)):
             file.write(f"\n{title}\n\n")
             for m in range(lipids):
@@ -61,9 +68,8 @@ def pdb_line(serial, name, residue, chain, number, x, segment="MEMB", record="AT
             f"  1.00  0.00      {segment:<4s}{element:>2s}\n")
 
 
-def finish(places="patch.dump", name="patch", side=SIDE, residues=lambda m: "DPPC"):
+def finish(x, name="patch", side=SIDE, residues=lambda m: "DPPC"):
     """Atoms are wrapped in the plane, as simulations leave them."""
-    x = read_places(places)
     beads, width = len(NAMES), side * SPACING
     lipids = len(x) // beads
     with open(name + ".pdb", "w") as file:
@@ -87,4 +93,7 @@ def finish(places="patch.dump", name="patch", side=SIDE, residues=lambda m: "DPP
 
 
 if __name__ == "__main__":
-    {"start": start, "finish": finish}[sys.argv[1]]()
+    if sys.argv[1] == "start":
+        start()
+    else:
+        finish(read_places())
