@@ -51,10 +51,9 @@ struct Anchor {
   Matrix3d hessian;
   double height = INFINITY;
 
-  void drop(const ParallelSurfaces &surfaces, const Vector3d &place, SurfacePoint &point)
+  void drop(const ParallelSurfaces &surfaces, const Vector3d &place, const SurfacePoint &start)
   {
-    const ClosestPoint closest = closest_point(surfaces.surface(), place, point);
-    point = closest.point;
+    const ClosestPoint closest = closest_point(surfaces.surface(), place, start);
     x = place;
     normal = closest.normal;
     height = closest.distance;

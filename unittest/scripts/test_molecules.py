@@ -240,7 +240,7 @@ scaled = START.replace("units           real", "units lj").format(shape=PLANE, b
 output = run(scaled + "membrane_build patch small.pdb psf small.psf scale 10 out scaled\n")
 claim("units lj with a scale", open("scaled.pdb").read() == open("plane.pdb").read())
 run(script(PLANE, "0 90 0 80 -40 40", "patch small.pdb psf small.psf overwrite yes out wavy",
-           "displace_atoms all random 1 1 2 4711\nwrite_restart state\n"))
+           "variable wave atom 6*cos(2*PI*x/lx)\nset type 1 z v_wave\nwrite_restart state\n"))
 before = open("wavy.pdb").read()
 run("read_restart state\nmembrane_build patch small.pdb psf small.psf overwrite yes out again\n", ranks=2 if MPIEXEC else 1)
 claim("a restart file gives the same structure", open("again.pdb").read() == before)
