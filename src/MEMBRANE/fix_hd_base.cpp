@@ -232,6 +232,13 @@ void FixHDBase::respond(const double *const *f, double **v)
   mass.part().store(answer, v);
 }
 
+std::array<double, 3> FixHDBase::twice_kinetic()
+{
+  double t[6];
+  mass.kinetic(t);
+  return {t[0], t[1], t[2]};
+}
+
 void FixHDBase::kick(double step)
 {
   if (forces_due) accelerate();

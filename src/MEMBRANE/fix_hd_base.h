@@ -20,6 +20,7 @@
 
 #include "restart_archive.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,6 +65,10 @@ class FixHDBase : public Fix {
   void respond(const double *const *f, double **v);
   /// The temperature, times Boltzmann's constant, that its shapes are sampled at; 0 if it is not known.
   double sampled_kT() const { return measure.kT; }
+  /// Something has moved atoms after a step's end, and their forces are others.
+  void forces_changed() { forces_due = true; }
+  /// Collective: twice the kinetic energy by direction, mass times velocity squared.
+  std::array<double, 3> twice_kinetic();
   /// Its dynamics have no meaning.
   bool sampling() const { return mass.settings.kind == Membrane_NS::MassKind::SAMPLING; }
 
@@ -102,7 +107,7 @@ class FixHDBase : public Fix {
   bigint moved_step;    // of which step `moved` is
   int64_t drawn_for;    // the reference of mass sampling that velocities are drawn for, or -1
   int passes;           // of the last accelerate()
-  bool forces_due;      // a run has begun: fixes after this have added forces since setup()
+  bool forces_due;      // others have changed forces since the last accelerate(), in setup() or after a step
   bool remembers, check, limit_due;
   double limit;    // of stability for the timestep, when a run last began; 0 if not known
   bool watching;

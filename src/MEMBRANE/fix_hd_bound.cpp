@@ -76,8 +76,10 @@ FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
 FixHDBound::~FixHDBound()
 {
   if (copymode) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
+  if (modify->get_fix_by_id(id) == this) {    // and not a word of the command that stopped its making
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+  }
   memory->destroy(work);
   memory->destroy(answer);
 }

@@ -100,6 +100,13 @@ class FixHDBound : public Fix {
   const std::vector<int> &bound_atoms() const { return members; }
   std::vector<int> owned_faces() const;
   double mass_of(int) const;
+  /// Atoms are exactly over their sites, and move along the surface only.
+  bool is_rigid() const { return rigid; }
+  /// Collective: the sum over its atoms of the logarithm of the area that they can be in, of the surface at their
+  /// height, to that of u and v at their site.
+  double log_areas();
+  /// Takes atoms back over their sites on the surface as it is now.
+  void return_to_sites();
   /// Collective: feet at the present positions, for computes.
   void update_feet();
 

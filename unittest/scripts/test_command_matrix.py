@@ -46,6 +46,7 @@ FIXES = """
 fix             i1 nve hd/nve
 fix             i2 langevin hd/langevin 1.0 1.0 1.0 4711
 fix             i3 brownian hd/brownian 1.0 4711 gamma_t 50
+fix             b all hd/tension 2 1.0 4711 xyz pressure 0.1 step 1e-8 burn 0
 fix             s solvent srd/mesh 2 walls 1.0 1.0 4711 shift yes 9127 collision {slip}
 """
 COMPUTES = """
@@ -61,7 +62,7 @@ compute         all all reduce sum v_place
 """
 THERMO = """
 thermo_style    custom step atoms pe c_hf[1] c_hf[2] c_hf[3] c_hf[4] c_hf[5] c_hf[6] c_t c_u[1] c_shape[1] c_shape[2] &
-                c_k2[1] c_k2[2] c_all f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17]
+                c_k2[1] c_k2[2] c_all vol f_b f_b[1] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17]
 thermo_modify   norm no format float %24.17g
 """
 DUMP = "dump            d points membrane/image 1 {image}.*.ppm type type size 40 40\n"
@@ -72,7 +73,7 @@ min_style       membrane
 """
 RUN = "run 3\n"
 
-REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "s")) + FIXES
+REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "b", "s")) + FIXES
 UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "k2", "x", "k", "shape", "u", "t", "hf")) + COMPUTES + THERMO
 FOURTH = """
 region          gap sphere 0 0 3 1.4
