@@ -81,9 +81,11 @@ void ModalMass::find_gram()
 
 void ModalMass::find_decay()
 {
+  const MatrixXd inverse = factor_.matrixU().solve(MatrixXd::Identity(count_, count_));
   const MatrixXd friction = Eigen::Map<const VectorXd>(friction_.data(), count_).asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(friction, gram_);
-  decay_ = solver.eigenvectors();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inverse.transpose() * friction * inverse);
+  turn_ = solver.eigenvectors();
+  decay_ = inverse * turn_;
   rates_ = solver.eigenvalues();
 }
 
@@ -217,7 +219,9 @@ void ModalMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
 }
 
 /* ----------------------------------------------------------------------
-   adot = W b turns G adot' = -friction adot + noise into b' = -rates b + noise, each for itself; b = W^T G adot
+   With G = U^T U and Q the eigenvectors of U^-T friction U^-1, adot = W b, W = U^-1 Q, turns G adot' = -friction adot
+   + noise into b' = -rates b + noise, each for itself; b = W^T G adot. Many rates are the same and Q is any rotation
+   among these: white noise is turned by it, too, so that the outcome does not depend on which
 ------------------------------------------------------------------------- */
 
 void ModalMass::relax_own(double time, double kT, uint64_t seed, uint64_t step, VertexField &v)
@@ -225,7 +229,7 @@ void ModalMass::relax_own(double time, double kT, uint64_t seed, uint64_t step, 
   momentum_.resize(part_.size());
   full_->multiply(v, momentum_);
   VectorXd b = decay_.transpose() * project(momentum_);
-  const VectorXd z = white(seed, step);
+  const VectorXd z = turn_.transpose() * white(seed, step);
   for (int k = 0; k < count_; ++k) {
     const double keep = std::exp(-rates_[k] * time);
     b[k] = keep * b[k] + std::sqrt((1.0 - keep * keep) * kT) * z[k];
@@ -236,7 +240,7 @@ void ModalMass::relax_own(double time, double kT, uint64_t seed, uint64_t step, 
 double ModalMass::memory_usage() const
 {
   double bytes = MassOperator::memory_usage() + full_->memory_usage() +
-      sizeof(double) * (gram_.size() * 3.0 + decay_.size()) + sizeof(Vector4) * (work_.capacity() + momentum_.capacity());
+      sizeof(double) * (gram_.size() * 3.0 + 2.0 * decay_.size()) + sizeof(Vector4) * (work_.capacity() + momentum_.capacity());
   for (const Membrane &membrane : membranes_)
     bytes += sizeof(Lane) * membrane.psi.capacity() + sizeof(int) * membrane.local.capacity();
   return bytes + space_->memory_usage();

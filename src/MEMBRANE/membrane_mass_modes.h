@@ -90,7 +90,7 @@ class ModalMass : public MassOperator {
   int count_;
   Eigen::MatrixXd gram_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::MatrixXd decay_;     // W with W^T G W = 1 and W^T friction W = rates_
+  Eigen::MatrixXd turn_, decay_;    // Q, and W with W^T G W = 1 and W^T friction W = rates_
   Eigen::VectorXd rates_;
   VertexField work_, momentum_;
 
