@@ -57,7 +57,9 @@ void FixHDBase::post_constructor()
   restart_global = 1;
   array_flag = 1;
   extarray = 0;
-  size_array_rows = HDModeSpace(lmp, std::string("Fix ") + style).count_rows(*modes(), groupbit);
+  const HDModeSpace space(lmp, std::string("Fix ") + style);
+  space.check(mass.settings);
+  size_array_rows = space.count_rows(*modes(), groupbit);
   size_array_cols = NCOLUMNS;
 }
 

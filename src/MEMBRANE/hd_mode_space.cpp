@@ -72,7 +72,7 @@ int HDModeSpace::parse_modes(int iarg, int narg, char **arg, SharedModes &modes)
     return 3;
   }
   if (shape != "plane" && shape != "sphere")
-    error->all(FLERR, "Unknown {} modes {}; known are: plane, sphere, file", user, shape);
+    error->all(FLERR, "{} modes {} is not plane, sphere or file", user, shape);
   const bool sphere = shape == "sphere";
   choice.shape = sphere ? Choice::Shape::SPHERE : Choice::Shape::PLANE;
   if (!sphere && word(2) != "min") {
@@ -125,7 +125,7 @@ int HDModeSpace::parse_relax(int iarg, int narg, char **arg, SharedModes &modes)
     }
     if (modes.times.empty()) error->all(FLERR, "{} relax time {}: the file has no times", user, value);
   } else
-    error->all(FLERR, "Unknown {} relax {}; known are: eta, time", user, kind);
+    error->all(FLERR, "{} relax {} is not eta or time", user, kind);
   return 3;
 }
 

@@ -176,13 +176,71 @@ worst = max(abs(one[k] - shifted[k]) / max(abs(one[k]), 1e-3) for k in one)
 claim("a vesicle across the periodic boundary moves the same", worst < 1e-8, f"{worst:.1e}")
 
 DUMP = "dump d all custom 100 {} id x y z vx vy vz\ndump_modify d sort id format float %.17g\n"
+
+
+def last_frame(path):
+    with open(path) as file:
+        return file.read().rsplit("ITEM: TIMESTEP", 1)[-1]
+
+
 for fix in (THERMAL, "fix 1 all hd/nve modes sphere min 0 max 4",
-            "fix 1 all hd/brownian 1.0 4711 modes sphere min 2 max 6 relax eta 1.0"):
+            "fix 1 all hd/brownian 1.0 4711 modes sphere min 2 max 6 relax time degrees.table"):
+    with open("degrees.table", "w") as file:
+        file.write("".join(f"{l} {1 / l}\n" for l in range(2, 7)))
     dt = 0.001 if "brownian" in fix else 0.01
-    vesicle(fix, f"hd_velocity all 1.0 815 scale yes\ntimestep {dt}\nrestart 150 half.*.restart\n"
-                 + DUMP.format("whole.dump") + "run 300")
-    run("read_restart half.150.restart\npair_coeff 1 1 20.0 0.0\n" + fix + f"\ntimestep {dt}\n" + DUMP.format("rest.dump")
+    vesicle(fix, f"hd_velocity all 1.0 815\ntimestep {dt}\nrun 150\nwrite_restart half.restart\n"
+                 + DUMP.format("whole.dump") + "run 150")
+    run("read_restart half.restart\npair_coeff 1 1 20.0 0.0\n" + fix + f"\ntimestep {dt}\n" + DUMP.format("rest.dump")
         + "run 150")
-    ends = [open(name).read().rsplit("ITEM: TIMESTEP", 1)[-1] for name in ("whole.dump", "rest.dump")]
-    claim(f"a restart in the middle of a run continues {fix.split()[3]} bit by bit", ends[0] == ends[1] and len(ends[0]) > 999)
+    whole, rest = last_frame("whole.dump"), last_frame("rest.dump")
+    claim(f"a run of {fix.split()[3]} continued from a restart file is bitwise the same", whole == rest and len(rest) > 999)
+
+# === Commands between two runs
+
+between = vesicle("fix 1 all hd/nve modes sphere min 2 max 4",
+                  "hd_velocity all 1.0 815\ntimestep 0.01\nthermo 200\nrun 200\nreset_atoms id\nrun 0\nreplicate 2 1 1\nrun 0\n"
+                  "run 200", more="f_1[1][4]")
+straight = vesicle("fix 1 all hd/nve modes sphere min 2 max 4", "hd_velocity all 1.0 815\ntimestep 0.01\nthermo 200\nrun 400",
+                   more="f_1[1][4]")
+ends = [between[-1]["f_1[1][4]"], straight[-1]["f_1[1][4]"]]
+claim("modes go on after reset_atoms id and replicate", abs(ends[0] - ends[1]) < 1e-9 * abs(ends[1]), ends)
+
+# === What is refused
+
+MODES = "fix 1 all hd/langevin 1.0 1.0 1.0 4711 "
+for text, fix, words in (
+        ("degrees beyond the mesh's limit", MODES + "modes sphere min 2 max 11", "modes up to l = 10"),
+        ("sphere modes of l = 1", MODES + "modes sphere min 1 max 4", "begin with 2, or with 0"),
+        ("plane modes of a vesicle", MODES + "modes plane min 1 max 2", "membrane 1 is closed, no sheet: use modes sphere"),
+        ("an unknown shape", MODES + "modes cube 2", "is not plane, sphere or file"),
+        ("max below min", MODES + "modes sphere min 4 max 3", "max must be between min and 200"),
+        ("modes with mass sampling", MODES + "mass sampling modes sphere min 2 max 4", "mass sampling moves all control points"),
+        ("relax without modes", MODES + "relax eta 1.0", "say modes before it"),
+        ("relax with a damping time", MODES + "modes sphere min 2 max 4 relax eta 1.0", "say NULL for the damping time"),
+        ("NULL without relax", "fix 1 all hd/langevin 1.0 1.0 NULL 4711 modes sphere min 2 max 4", "without relax it must be"),
+        ("relax with hd/nve", "fix 1 all hd/nve modes sphere min 2 max 4 relax eta 1.0", "has no friction"),
+        ("relax with gamma_t", "fix 1 all hd/brownian 1.0 1 gamma_t 1.0 modes sphere min 2 max 4 relax eta 1.0", "leave gamma_t out"),
+        ("a negative viscosity", "fix 1 all hd/langevin 1 1 NULL 4 modes sphere min 2 max 4 relax eta -1", "must be positive"),
+        ("a table that is missing", "fix 1 all hd/langevin 1 1 NULL 4 modes sphere min 2 max 4 relax time none", "cannot read file none"),
+        ("a mode that is not in the table", "fix 1 all hd/langevin 1 1 NULL 4 modes sphere min 2 max 7 relax time degrees.table",
+         "has no time for mode 7"),
+        ("the measure with modes", MODES + "measure yes modes sphere min 2 max 4", "leave it out with modes"),
+        ("scale with modes", MODES + "scale 1 2.0 modes sphere min 2 max 4", "use relax with modes"),
+        ("two fixes for one membrane", MODES + "modes sphere min 2 max 4\nfix 2 all hd/nve modes sphere min 2 max 4",
+         "fixes 1 and 2 move atoms of the group"),
+        ("a shape far from a sphere", "change_box all x final -9 9\nvariable far atom 4*x\nset type 1 x v_far\n" + MODES + "modes sphere min 2 max 4",
+         "is far from a sphere"),
+        ("a box that changes", MODES + "modes sphere min 2 max 4\nfix d all deform 1 x erate 0.1", "those of one box"),
+        ("a vesicle that was moved away", MODES + "modes sphere min 2 max 4\nrun 0\ndisplace_atoms all move 0.5 0 0",
+         "a fix that is defined anew")):
+    script = VESICLE.format(fix=fix, rest="run 1", level=2, terms="", more="", center="", processors="")
+    line = error_of(script)
+    claim(f"{text}: one clear line", words in line, line)
+
+line = error_of(SHEET.format(fix=MODES + "modes sphere min 2 max 4", row=5, terms="", dt=0.1, steps=1, every=1, start=wave(1)))
+claim("sphere modes of a sheet: one clear line", "is no sphere: use modes plane" in line, line)
+line = error_of(SHEET.format(fix=MODES + "modes plane 9 0", row=5, terms="", dt=0.1, steps=1, every=1, start=wave(1)))
+claim("waves beyond the mesh's limit: one clear line", "waves as long as two edges or more" in line, line)
+sheet("fix 1 all hd/nve modes plane min 1 max 5", steps=10)
+claim("waves up to the limit of the mesh run", True)
 finish()
