@@ -127,6 +127,8 @@ class FixHDBase : public Fix {
   bigint settled_step, measured_step;
   std::vector<std::array<double, 10>> rows;    // of the array, of measured_step
   void displacement_from_reference(Membrane_NS::VertexField &);
+  struct OutOfSpace;
+  OutOfSpace out_of_space();
   void settle(bool first);
   void find_friction();
   void measure_modes();

@@ -46,7 +46,7 @@ static constexpr int SETTLE_EVERY = 1000;
 // begins, so that a run from a restart file is the one that goes on
 static constexpr double ROUNDING = 1.0e-11;
 
-// what is worth a message, and what is taken for another shape, in edges
+// from where on control points have been moved, and what is too far for any of the modes, in edges
 static constexpr double WORTH_TELLING = 1.0e-6, MOST = 1.0;
 
 /* ---------------------------------------------------------------------- */
@@ -108,44 +108,67 @@ static double largest(const VertexField &field, int n)
   return std::sqrt(square);
 }
 
+// what positions and velocities have out of the space, and velocities in it; the largest of each on all ranks
+
+struct FixHDBase::OutOfSpace {
+  VertexField off, v_off, v_inside;
+  double furthest, fastest_off, fastest;
+};
+
+FixHDBase::OutOfSpace FixHDBase::out_of_space()
+{
+  auto &modal = *mass.modal();
+  const MeshPart &part = mass.part();
+  OutOfSpace out;
+  VertexField inside(part.size());
+  out.v_inside.resize(part.size());
+  displacement_from_reference(out.off);
+  modal.expand(modal.amplitudes(out.off), inside);
+  part.load(atom->v, out.v_off);
+  modal.expand(modal.amplitudes(out.v_off), out.v_inside);
+  for (int i = 0; i < part.owned; ++i)
+    for (int k = 0; k < 3; ++k) {
+      out.off[i].c[k] -= inside[i].c[k];
+      out.v_off[i].c[k] -= out.v_inside[i].c[k];
+    }
+  double mine[3] = {largest(out.off, part.owned), largest(out.v_off, part.owned), largest(out.v_inside, part.owned)};
+  double most[3];
+  MPI_Allreduce(mine, most, 3, MPI_DOUBLE, MPI_MAX, world);
+  out.furthest = most[0];
+  out.fastest_off = most[1];
+  out.fastest = most[2];
+  return out;
+}
+
 void FixHDBase::settle(bool first)
 {
   measured_step = -1;
   if (!first && (update->ntimestep % SETTLE_EVERY || settled_step == update->ntimestep)) return;
   settled_step = update->ntimestep;
-  auto &modal = *mass.modal();
-  const MeshPart &part = mass.part();
-  VertexField off, inside(part.size()), v, v_inside(part.size());
-  displacement_from_reference(off);
-  modal.expand(modal.amplitudes(off), inside);
-  part.load(atom->v, v);
-  modal.expand(modal.amplitudes(v), v_inside);
-
-  double mine[3], most[3];    // out of the space, velocities likewise, velocities in it
-  for (int i = 0; i < part.owned; ++i)
-    for (int k = 0; k < 3; ++k) {
-      off[i].c[k] -= inside[i].c[k];
-      v[i].c[k] -= v_inside[i].c[k];
-    }
-  mine[0] = largest(off, part.owned);
-  mine[1] = largest(v, part.owned);
-  mine[2] = largest(v_inside, part.owned);
-  MPI_Allreduce(mine, most, 3, MPI_DOUBLE, MPI_MAX, world);
   const double edge = mass.mesh().longest_edge();
-  if (first && !(most[0] <= MOST * edge))
-    error->all(FLERR,
-               "Fix {} modes: control points are up to {:.3g} edges away from all shapes that the modes have about "
-               "their reference; a fix that is defined anew takes the present shape for reference",
-               style, most[0] / edge);
-  if (first && most[0] > WORTH_TELLING * edge && comm->me == 0)
-    utils::logmesg(lmp, "Fix {} modes: control points move by up to {:.3g} edges to a shape that the modes have\n", style,
-                   most[0] / edge);
-  const bool places = !first || most[0] > ROUNDING * edge, velocities = !first || most[1] > ROUNDING * most[2];
+  OutOfSpace out = out_of_space();
+  if (first && out.furthest > WORTH_TELLING * edge) {    // somebody has moved them since
+    mass.take_modes_anew();
+    out = out_of_space();
+    if (!(out.furthest <= MOST * edge))
+      error->all(FLERR,
+                 "Fix {} modes: control points are up to {:.3g} edges away from all shapes that the modes have: choose more "
+                 "modes, or begin with a shape that is nearer to these",
+                 style, out.furthest / edge);
+    if (comm->me == 0)
+      utils::logmesg(lmp,
+                     "Fix {} modes: the reference is that of the present shape, and control points move by up to {:.3g} "
+                     "edges to a shape that the modes have\n",
+                     style, out.furthest / edge);
+  }
+  const bool places = !first || out.furthest > ROUNDING * edge;
+  const bool velocities = !first || out.fastest_off > ROUNDING * out.fastest;
+  const MeshPart &part = mass.part();
   for (int i = 0; i < part.owned; ++i) {
     const int j = part.atom_of(i);
     for (int k = 0; k < 3; ++k) {
-      if (places) atom->x[j][k] -= off[i].c[k];
-      if (velocities) atom->v[j][k] = v_inside[i].c[k];
+      if (places) atom->x[j][k] -= out.off[i].c[k];
+      if (velocities) atom->v[j][k] = out.v_inside[i].c[k];
     }
   }
 }

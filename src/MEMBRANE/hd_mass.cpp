@@ -142,6 +142,13 @@ void HDMass::refresh()
   }
 }
 
+void HDMass::take_modes_anew()
+{
+  settings.modes->shape.points.clear();
+  settings.modes->now.reset();
+  refresh();
+}
+
 Membrane_NS::ModalMass *HDMass::modal() const
 {
   return dynamic_cast<Membrane_NS::ModalMass *>(mass.get());

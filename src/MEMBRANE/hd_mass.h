@@ -59,7 +59,9 @@ class HDMass : protected Pointers {
   DistributedMesh &mesh() { return points.mesh(); }
   MeshPart &part() { return points.part(); }
   Membrane_NS::MassOperator &matrix() { return *mass; }
-  /// The same, if modes are all the motion there is, or nullptr.
+  /// Collective: modes about the shape that the mesh has had in the last init().
+  void take_modes_anew();
+  /// The same as matrix(), if modes are all the motion there is, or nullptr.
   Membrane_NS::ModalMass *modal() const;
   /// Differs after a refresh() that made the matrix anew.
   bigint numbering() const { return numberings; }

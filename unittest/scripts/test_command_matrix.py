@@ -12,7 +12,7 @@ from membrane_scenes import bipyramid, write_off
 RANKS = (1, 2) if MPIEXEC else (1,)
 write_off("irregular.off", *bipyramid(9))
 
-# three vesicles, one for each integrator, of meshes with few regular faces; solvent meets the first two
+# three vesicles, one for each integrator, of meshes with few regular faces; solvent meets the first two. One of modes
 ATOMS = """
 units           lj
 atom_style      membrane_cp
@@ -21,11 +21,13 @@ create_box      2 box angle/types 1
 create_membrane 1 sphere 1 1.2 center -3.0 0 0 mass 20
 create_membrane 1 sphere 1 1.2 center  0.0 0 0 mass 20
 create_membrane 1 file irregular.off refine 1 center 3.0 0 0 mass 20
+create_membrane 1 sphere 1 0.8 center -1.5 2.0 2.0 molecule 9 mass 20
 create_solvent  2 both 3.0 4711 mass 1.0
 group           solvent type 2
 group           nve molecule 1
 group           langevin molecule 2
 group           brownian molecule 3
+group           modes molecule 9
 group           points type 1
 group           walls union nve langevin
 velocity        points create 1.0 88
@@ -37,6 +39,7 @@ FIXES = """
 fix             i1 nve hd/nve
 fix             i2 langevin hd/langevin 1.0 1.0 1.0 4711
 fix             i3 brownian hd/brownian 1.0 4711 gamma_t 50
+fix             i4 modes hd/langevin 1.0 1.0 NULL 4711 modes sphere min 0 max 3 relax eta 50
 fix             s solvent srd/mesh 2 walls 1.0 1.0 4711 shift yes 9127 collision {slip}
 """
 COMPUTES = """
@@ -52,7 +55,7 @@ compute         all all reduce sum v_place
 """
 THERMO = """
 thermo_style    custom step atoms pe c_hf[1] c_hf[2] c_hf[3] c_hf[4] c_hf[5] c_hf[6] c_t c_u[1] c_shape[1] c_shape[2] &
-                c_k2[1] c_k2[2] c_all f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17]
+                c_k2[1] c_k2[2] c_all f_i4[3][4] f_i4[3][6] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17]
 thermo_modify   norm no format float %24.17g
 """
 DUMP = "dump            d points membrane/image 1 {image}.*.ppm type type size 40 40\n"
@@ -63,7 +66,7 @@ min_style       membrane
 """
 RUN = "run 3\n"
 
-REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "s")) + FIXES
+REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "i4", "s")) + FIXES
 UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "k2", "x", "k", "shape", "u", "t", "hf")) + COMPUTES + THERMO
 FOURTH = """
 region          gap sphere 0 0 3 1.4
