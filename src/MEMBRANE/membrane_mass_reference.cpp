@@ -40,8 +40,8 @@ double StiffnessReference::distance(const TriangleMesh &now, const Topology &top
 }
 
 /* ----------------------------------------------------------------------
-   (1 + (L/CUTOFF)^2) x = x0 with the Laplacian L of the graph of edges, for x - x0, which has no jumps
-   at the box. On a regular mesh L is 3/2 (q h)^2, so waves of 11 edges are halved
+   (1 + (L/CUTOFF)^2) x = x0 with L = 3/2 h^2 D^-1 K for x - x0, which has no jumps at the box; h^2 is that of
+   a regular mesh with as many points. L is 3/2 (q h)^2, so waves of 11 edges are halved
 ------------------------------------------------------------------------- */
 
 static constexpr double CUTOFF = 0.5;
@@ -50,22 +50,25 @@ static std::vector<Vector3d> without_short_waves(const TriangleMesh &shape,
                                                  const Topology &topology)
 {
   const int n = topology.num_vertices();
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<Vector3d> bent(n, Vector3d::Zero());
+  const FlatAreas areas(shape, topology);
+  std::vector<double> weights(topology.num_faces());
+  for (int f = 0; f < topology.num_faces(); ++f) {
+    const int c = topology.component(topology.face(f)[0]);
+    weights[f] = std::sqrt(3.0) * areas.components[c] / topology.num_vertices(c) / CUTOFF;
+  }
+  const SparseMatrix k = cotangent_laplacian(shape, topology, weights);
+
+  std::vector<Vector3d> bent(n, Vector3d::Zero());    // D^-1 K x0
   for (int v = 0; v < n; ++v)
-    for (int w : topology.ring(v)) {
-      entries.emplace_back(v, v, 1.0 / CUTOFF);
-      entries.emplace_back(v, w, -1.0 / CUTOFF);
-      bent[v] -= shape.edge(v, w) / CUTOFF;
-    }
-  SparseMatrix laplacian(n, n), one(n, n);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  one.setIdentity();
+    for (SparseMatrix::InnerIterator at(k, v); at; ++at)
+      if (at.row() != v) bent[v] += at.value() / areas.vertices[v] * shape.edge(v, at.row());
   VertexField change(n, Vector4{});
   for (int v = 0; v < n; ++v)
-    for (SparseMatrix::InnerIterator at(laplacian, v); at; ++at)
+    for (SparseMatrix::InnerIterator at(k, v); at; ++at)
       Map<Vector3d>(change[v].c) -= at.value() * bent[at.row()];
-  SparseCholesky(one + laplacian * laplacian).solve(change);
+  SparseMatrix filter = k * SparseMatrix(areas.vertices.cwiseInverse().asDiagonal() * k);
+  filter.diagonal() += areas.vertices;
+  SparseCholesky(filter).solve(change);
 
   std::vector<Vector3d> points = shape.points;
   for (int v = 0; v < n; ++v) points[v] += Map<Vector3d>(change[v].c);
