@@ -104,8 +104,7 @@ void FixHDBase::init()
   mass.init();
   faces->init();
   check_other_integrators();
-  if (modes() && domain->box_change)
-    error->all(FLERR, "Fix {} modes are those of one box, and a fix changes it: move all control points", style);
+  if (modes()) check_box();
   most_drift = MOST_DRIFT * mass.mesh().longest_edge();
   if (sampling()) most_drift *= MAX(1.0, RADIUS * std::sqrt(mass.count()));
   moved_step = -1;
@@ -236,6 +235,13 @@ void FixHDBase::respond(const double *const *f, double **v)
   mass.part().store(answer, v);
 }
 
+std::array<double, 3> FixHDBase::twice_kinetic()
+{
+  double t[6];
+  mass.kinetic(t);
+  return {t[0], t[1], t[2]};
+}
+
 void FixHDBase::kick(double step)
 {
   if (forces_due) accelerate();
@@ -323,9 +329,10 @@ void FixHDBase::report_runaway(tagint id_of_point)
     reason += fmt::format(", though the stability limit was about {:.3g} when the run began{}",
                           limit, shape_lost_at(id_of_point));
   error->one(FLERR,
-             "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
+             "Fix {}: control point {} moved further than {} in one step: {}; "
              "hd_timestep finds the limit precisely",
-             style, id_of_point, MOST_DRIFT, reason);
+             style, id_of_point,
+             sampling() ? "a quarter of a membrane's radius" : fmt::format("{} of an edge", MOST_DRIFT), reason);
 }
 
 // a mesh that has lost its shape is stable for shorter timesteps only

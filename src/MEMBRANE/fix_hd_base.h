@@ -69,6 +69,10 @@ class FixHDBase : public Fix {
   void respond(const double *const *f, double **v);
   /// The temperature, times Boltzmann's constant, that its shapes are sampled at; 0 if it is not known.
   double sampled_kT() const { return measure.kT; }
+  /// Something has moved atoms after a step's end, and their forces are others.
+  void forces_changed() { forces_due = true; }
+  /// Collective: twice the kinetic energy by direction, mass times velocity squared.
+  std::array<double, 3> twice_kinetic();
   /// Its dynamics have no meaning.
   /// The modes that are all of its motion, or nullptr.
   const Membrane_NS::SharedModes *modes() const { return mass.settings.modes.get(); }
@@ -111,7 +115,7 @@ class FixHDBase : public Fix {
   bigint moved_step;    // of which step `moved` is
   int64_t drawn_for;    // the reference of mass sampling that velocities are drawn for, or -1
   int passes;           // of the last accelerate()
-  bool forces_due;      // a run has begun: fixes after this have added forces since setup()
+  bool forces_due;      // others have changed forces since the last accelerate(), in setup() or after a step
   bool remembers, check, limit_due;
   double limit;    // of stability for the timestep, when a run last began; 0 if not known
   bool watching;
@@ -126,6 +130,7 @@ class FixHDBase : public Fix {
 
   bigint settled_step, measured_step;
   std::vector<std::array<double, 10>> rows;    // of the array, of measured_step
+  void check_box();
   void displacement_from_reference(Membrane_NS::VertexField &);
   struct OutOfSpace;
   OutOfSpace out_of_space();

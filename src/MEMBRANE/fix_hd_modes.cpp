@@ -26,6 +26,7 @@
 #include "force.h"
 #include "hd_mode_space.h"
 #include "hd_stiffness_probe.h"
+#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -69,6 +70,24 @@ void FixHDBase::setup_pre_force(int)
   mass.refresh();
   settle(true);
   comm->forward_comm();
+}
+
+// a sheet is of its box, and no membrane goes along with one: its shapes are those about the reference
+
+void FixHDBase::check_box()
+{
+  for (auto &other : modify->get_fix_list()) {
+    if (!other->box_change) continue;
+    int mine = 0, any;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & groupbit && atom->mask[i] & other->groupbit) mine = 1;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+    if (any || modes()->choice.shape == ModeChoice::Shape::PLANE)
+      error->all(FLERR,
+                 "Fix {} modes are those of one box, and fix {} ({}) changes it: take the membrane out of its group if it is "
+                 "closed, or move all control points",
+                 style, other->id, other->style);
+  }
 }
 
 /* ----------------------------------------------------------------------

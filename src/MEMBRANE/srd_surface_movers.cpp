@@ -128,7 +128,8 @@ void SurfaceMovers::load_accelerations(const std::vector<int> &place, VertexFiel
 }
 
 /* ----------------------------------------------------------------------
-   fix deform takes either all atoms along at the end of a step, or none: then images of atoms move
+   fix deform takes either all atoms along at the end of a step, or none: then images of atoms move; fix
+   hd/tension takes them along
 ------------------------------------------------------------------------- */
 
 void SurfaceMovers::find_box_movers()
@@ -140,6 +141,8 @@ void SurfaceMovers::find_box_movers()
     const bool takes_membranes = have_in_common(fix);
     takes_atoms = takes_atoms || takes_membranes;
   }
+  for (auto &fix : modify->get_fix_by_style("^hd/tension"))
+    if (have_in_common(fix)) takes_atoms = true;
 }
 
 bool SurfaceMovers::images_move() const
