@@ -91,4 +91,9 @@ code, rows = plotted("bound_sorting", "sorting.txt")
 crests, theory = float(rows[-1][4]), float(rows[-1][8])
 claim("bound_sorting: coats gather on the crests", code == 0 and crests > 1.5 and theory > 1.5, f"{crests}, theory {theory}")
 
+example("modes", ("run             60000", "run             6000"), script="in.solvent")
+code, rows = plotted("modes", "solvent.txt")
+off = [float(row[2]) - float(row[3]) for row in rows if row[0] == "3"]
+claim("modes: a wave in implicit solvent is forgotten as hydrodynamics has it", code == 0 and max(map(abs, off)) < 0.3,
+      f"within {max(map(abs, off)):.2f}")
 finish()
