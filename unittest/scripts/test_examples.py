@@ -52,6 +52,12 @@ claim("flicker: the spectrum is near theory", code == 0 and len(ratios) == 9 and
 kc, error = float(rows[-2][2]), float(rows[-2][4])
 claim("    and so is the bending modulus that is fitted to it", abs(kc - 1) < 0.02 + 3 * error, f"{kc} +- {error}")
 
+example("tension", ("run             2000", "run             300"), ("run             10000", "run             600"))
+code, rows = plotted("tension", "tension.txt")
+claim("tension: two frames, each with its membrane near the area of theory",
+      code == 0 and len(rows) == 4 and all(abs(float(row[2]) / float(row[5]) - 1) < 0.005 for row in rows[::2]),
+      [row[2:6] for row in rows[::2]])
+
 example("relaxation_srd", ("loop 6", "loop 2"), ("run             2000", "run             1000"), script="in.plane")
 example("relaxation_srd", ("loop 6", "loop 2"), script="in.vesicle")
 shutil.copy(os.path.join(EXAMPLES, "relaxation_srd", "plot.py"), ".")

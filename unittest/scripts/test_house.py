@@ -18,6 +18,7 @@ FAMILIES = (
     "hd_", "fix_hd_", "compute_hd_", "min_membrane",                                 # motion, minimization
     "bound_", "fix_hd_bound", "fix_hd_bind", "create_bound", "write_bound",                       # bound particles
     "srd_", "fix_srd_mesh", "create_solvent",                                        # solvent
+    "molecules_",                                                                    # molecules
     "trial_energy", "box_scaling", "fix_hd_tension",                                        # Monte Carlo
     "dump_membrane_")                                                                # pictures
 
