@@ -47,6 +47,11 @@ void HDForeignIntegrators::warn(const DistributedMesh &mesh)
       if (atom->mask[i] & fix->groupbit && mesh.vertex(atom->tag[i]) >= 0) ++mine;
     MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
     if (all == 0) continue;
+    if (fix->box_change)
+      error->all(FLERR,
+                 "Fix {} ({}) would move {} control points and the box as if they were independent particles, without "
+                 "the mass matrix of the surface: use fix hd/langevin and fix hd/tension",
+                 fix->id, fix->style, all);
     warned.emplace_back(fix->id);
     if (comm->me == 0)
       error->warning(FLERR,

@@ -41,11 +41,27 @@ class BlockAverages {
   /// The integrated autocorrelation time, in samples, that goes with the error; 1/2 without correlations.
   double correlation(int series) const;
 
+  /// What is to be kept to go on later: file(x) for each number.
+  template <class Archive> void archive(Archive &file)
+  {
+    file(nseries_);
+    file(first_);
+    file(levels_);
+  }
+
  private:
   struct Level {
     int64_t count = 0;
     bool waiting = false;    // for the second half of a block of the next level
     std::vector<double> sum, square, half;
+    template <class Archive> void archive(Archive &file)
+    {
+      file(count);
+      file(waiting);
+      file(sum);
+      file(square);
+      file(half);
+    }
   };
   int nseries_;
   std::vector<double> first_;    // what is subtracted from all, against cancellation

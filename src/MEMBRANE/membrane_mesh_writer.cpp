@@ -216,7 +216,7 @@ void Membrane_NS::write_off(const std::string &path, const TriangleMesh &mesh,
 /* ---------------------------------------------------------------------- */
 
 void Membrane_NS::write_tsi(const std::string &path, const TriangleMesh &mesh,
-                            const PointFields &fields)
+                            const PointFields &fields, const TsiVertices &vertices)
 {
   check(path, mesh, fields);
   const Vector3d box = mesh.lattice.diagonal();
@@ -236,6 +236,7 @@ void Membrane_NS::write_tsi(const std::string &path, const TriangleMesh &mesh,
     }
     text += std::to_string(v) + " ";
     append_line(text, x);
+    if (!vertices.domains.empty()) text += " " + std::to_string(vertices.domains[v]);
     text += "\n";
   }
   text += "triangle " + std::to_string(mesh.faces.size()) + "\n";
@@ -244,7 +245,10 @@ void Membrane_NS::write_tsi(const std::string &path, const TriangleMesh &mesh,
     for (int v : mesh.faces[f]) text += ' ' + std::to_string(v);
     text += '\n';
   }
-  text += "inclusion 0\n";
+  text += "inclusion " + std::to_string(vertices.inclusions.size()) + "\n";
+  for (size_t i = 0; i < vertices.inclusions.size(); ++i)
+    text += std::to_string(i) + " " + std::to_string(vertices.inclusions[i].type) + " " +
+        std::to_string(vertices.inclusions[i].vertex) + " 1 0\n";
   write_whole_file(path, text);
 }
 

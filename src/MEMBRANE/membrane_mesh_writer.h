@@ -51,10 +51,20 @@ void write_off(const std::string &path, const TriangleMesh &mesh, const PointFie
 void write_ply(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {},
                PlyFormat format = PlyFormat::BINARY);
 
+/// What a TSI file tells of vertices: proteins that sit on them, and the domain that each is in.
+struct TsiVertices {
+  struct Inclusion {
+    int type, vertex;
+  };
+  std::vector<Inclusion> inclusions;
+  std::vector<int> domains;    ///< one a vertex, or none
+};
+
 /** TSI of FreeDTS and TS2CG, which has no place for fields either, see write_off(). Its box has the
     lattice vectors of the mesh, which must be along x, y and z, and begins at 0: points are moved
-    into it where it is periodic. */
-void write_tsi(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {});
+    into it where it is periodic. The direction of all inclusions is 1, 0 in the frame of their vertex. */
+void write_tsi(const std::string &path, const TriangleMesh &mesh, const PointFields &fields = {},
+               const TsiVertices &vertices = {});
 
 /// VTK XML PolyData for ParaView and OVITO, for drawing: the first field is the active scalar, and
 /// a periodic mesh is cut open.

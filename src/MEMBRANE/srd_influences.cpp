@@ -60,9 +60,9 @@ void SRDInfluences::check_integrators(const SRDSolvent &solvent)
 
 void SRDInfluences::check_box_movers(const SRDSolvent &solvent, int membranes)
 {
-  for (auto &fix : modify->get_fix_by_style("^deform")) {
+  for (auto &fix : modify->get_fix_list()) {
     const auto *deform = dynamic_cast<FixDeform *>(fix);
-    if (!deform || deform->remapflag != Domain::X_REMAP) continue;
+    if (!(deform && deform->remapflag == Domain::X_REMAP) && !utils::strmatch(fix->style, "^hd/tension")) continue;
     int mine[2] = {0, 0}, any[2];    // not in its group, in it
     for (int i = 0; i < atom->nlocal; ++i)
       if (solvent.has(i) || atom->mask[i] & group->bitmask[membranes])
@@ -71,9 +71,9 @@ void SRDInfluences::check_box_movers(const SRDSolvent &solvent, int membranes)
     if (any[0] && any[1])
       error->all(
           FLERR,
-          "Fix srd/mesh: fix {} (deform) with remap x needs all solvent and all membranes of group "
-          "{} in its group {}",
-          fix->id, group->names[membranes], group->names[fix->igroup]);
+          "Fix srd/mesh: fix {} ({}) stretches the box with the atoms in it, and needs all solvent and all "
+          "membranes of group {} in its group {}",
+          fix->id, fix->style, group->names[membranes], group->names[fix->igroup]);
   }
 }
 

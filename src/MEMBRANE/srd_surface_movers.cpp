@@ -84,6 +84,11 @@ void SurfaceMovers::find_integrators()
     if (integrator->mass_settings().kind != MassKind::VERTEX)
       error->all(FLERR, "{} needs point masses on the surface: use mass vertex in fix {} ({})",
                  user, fix->id, fix->style);
+    if (integrator->modes())
+      error->all(FLERR,
+                 "{}: fix {} ({}) moves modes, and an impulse of solvent at a point would move all of them: move all "
+                 "control points, or have relax eta in place of solvent",
+                 user, fix->id, fix->style);
     integrator->remember_displacement();
     integrators.push_back(integrator);
   }
@@ -123,7 +128,8 @@ void SurfaceMovers::load_accelerations(const std::vector<int> &place, VertexFiel
 }
 
 /* ----------------------------------------------------------------------
-   fix deform takes either all atoms along at the end of a step, or none: then images of atoms move
+   fix deform takes either all atoms along at the end of a step, or none: then images of atoms move; fix
+   hd/tension takes them along
 ------------------------------------------------------------------------- */
 
 void SurfaceMovers::find_box_movers()
@@ -135,6 +141,8 @@ void SurfaceMovers::find_box_movers()
     const bool takes_membranes = have_in_common(fix);
     takes_atoms = takes_atoms || takes_membranes;
   }
+  for (auto &fix : modify->get_fix_by_style("^hd/tension"))
+    if (have_in_common(fix)) takes_atoms = true;
 }
 
 bool SurfaceMovers::images_move() const

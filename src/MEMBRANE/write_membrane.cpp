@@ -17,14 +17,17 @@
 
 #include "write_membrane.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "membrane_tessellation.h"
+#include "fix_hd_bound.h"
 #include "mesh_distributed.h"
+#include "mesh_gather.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -38,7 +41,7 @@ using Membrane_NS::TriangleMesh;
 /* ---------------------------------------------------------------------- */
 
 WriteMembrane::WriteMembrane(LAMMPS *lmp) :
-    Command(lmp), format(Format::VTP), subdivide(4), fields(true)
+    Command(lmp), format(Format::VTP), subdivide(4), fields(true), domains(false)
 {
 }
 
@@ -61,6 +64,8 @@ void WriteMembrane::command(int narg, char **arg)
           FLERR,
           "write_membrane membrane {} does not exist; molecule IDs of membranes are {} to {}",
           molecule, mesh.molecules().front(), mesh.molecules().back());
+
+  gather_vertices(mesh);
 
   // every rank has the whole mesh: one writes, all fail together
 
@@ -98,12 +103,19 @@ void WriteMembrane::parse(int narg, char **arg)
   path = utils::star_subst(arg[0], update->ntimestep, 0);
   parse_format();
 
-  for (int iarg = 1; iarg < narg; iarg += 2) {
+  for (int iarg = 1, used = 2; iarg < narg; iarg += used) {
     const std::string key = arg[iarg];
-    if (key != "subdivide" && key != "membrane" && key != "fields")
-      error->all(FLERR, "Unknown write_membrane keyword {}; known are: subdivide, membrane, fields",
+    if (key != "subdivide" && key != "membrane" && key != "fields" && key != "inclusions" &&
+        key != "domains")
+      error->all(FLERR,
+                 "Unknown write_membrane keyword {}; known are: subdivide, membrane, fields, "
+                 "inclusions, domains",
                  key);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "write_membrane " + key, error);
+    used = key == "inclusions" ? 3 : 2;
+    if (iarg + used > narg) utils::missing_cmd_args(FLERR, "write_membrane " + key, error);
+    if (used == 3 || key == "domains")
+      if (format != Format::TSI)
+        error->all(FLERR, "write_membrane: only a file in TSI format has a place for {}", key);
 
     if (key == "subdivide") {
       subdivide = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
@@ -112,6 +124,12 @@ void WriteMembrane::parse(int narg, char **arg)
                    (int) FaceTessellation::MOST);
     } else if (key == "membrane") {
       chosen.push_back(utils::tnumeric(FLERR, arg[iarg + 1], false, lmp));
+    } else if (key == "domains") {
+      domains = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+    } else if (key == "inclusions") {
+      const int type = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+      if (type < 0) error->all(FLERR, "write_membrane inclusions {} must not be negative", type);
+      inclusions.emplace_back(arg[iarg + 1], type);
     } else {
       fields = utils::logical(FLERR, arg[iarg + 1], false, lmp);
       if (fields && !format_has_fields())
@@ -147,8 +165,8 @@ void WriteMembrane::parse_format()
    the chosen membranes, with vertices in the order of atom IDs; labels are their molecule IDs
 ------------------------------------------------------------------------- */
 
-TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh,
-                                         std::vector<double> &labels) const
+TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh, std::vector<double> &labels,
+                                         std::vector<int> &vertices) const
 {
   const Topology &topology = mesh.topology();
   const TriangleMesh all = mesh.triangle_mesh();
@@ -163,6 +181,7 @@ TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh,
     number[v] = part.points.size();
     part.points.push_back(all.points[v]);
     labels.push_back(molecule);
+    vertices.push_back(v);
   }
   for (const Face &face : all.faces)
     if (number[face[0]] >= 0)
@@ -175,7 +194,8 @@ TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh,
 WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
 {
   std::vector<double> labels;
-  const TriangleMesh control = control_mesh(mesh, labels);
+  std::vector<int> vertices;
+  const TriangleMesh control = control_mesh(mesh, labels, vertices);
   const Topology topology(control.points.size(), control.faces);
 
   // n = 1 has the vertices and faces of the control mesh, and its curvatures are those of the limit
@@ -206,6 +226,7 @@ WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
   }
 
   Surface what;
+  if (format == Format::TSI) set_vertices(topology, cut, vertices, what);
   what.mesh = std::move(cut.mesh);
   if (fields && format_has_fields())
     what.fields = {{"mean_curvature", std::move(cut.mean_curvature)},
@@ -234,6 +255,71 @@ WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
   return what;
 }
 
+/* ----------------------------------------------------------------------
+   collective: types of control points, and where bound particles are
+------------------------------------------------------------------------- */
+
+void WriteMembrane::gather_vertices(const DistributedMesh &mesh)
+{
+  if (domains) {
+    std::vector<int> mine(mesh.topology().num_vertices(), 0);
+    types.resize(mine.size());
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (const int v = mesh.vertex(atom->tag[i]); v >= 0) mine[v] = atom->type[i];
+    MPI_Allreduce(mine.data(), types.data(), static_cast<int>(mine.size()), MPI_INT, MPI_MAX, world);
+  }
+  for (const auto &[id, type] : inclusions) {
+    const FixHDBound *bind = FixHDBound::named(lmp, id, "write_membrane");
+    std::vector<Bound> mine;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & bind->groupbit)
+        mine.push_back({atom->tag[i], type, {atom->x[i][0], atom->x[i][1], atom->x[i][2]}});
+    const std::vector<Bound> all = gather_all(mine, world);
+    bound.insert(bound.end(), all.begin(), all.end());
+  }
+  std::sort(bound.begin(), bound.end(), [](const Bound &a, const Bound &b) { return a.id < b.id; });
+}
+
+/* ----------------------------------------------------------------------
+   the domain of a point is the type of the nearest corner of its face, less 1; a bound particle becomes an
+   inclusion of the nearest vertex that has none. `of` are the vertices of the whole mesh.
+------------------------------------------------------------------------- */
+
+void WriteMembrane::set_vertices(const Topology &topology, const TessellatedSurface &cut, const std::vector<int> &of,
+                                 Surface &what) const
+{
+  const auto &points = cut.mesh.points;
+  if (domains)
+    for (size_t p = 0; p < points.size(); ++p) {
+      int nearest = p < of.size() ? p : -1;
+      double least = INFINITY;
+      if (nearest < 0)
+        for (int v : topology.face(cut.face[p]))
+          if (const double d = cut.mesh.nearest_image(points[v] - points[p]).norm(); d < least) {
+            least = d;
+            nearest = v;
+          }
+      what.vertices.domains.push_back(types[of[nearest]] - 1);
+    }
+  std::vector<char> taken(points.size(), 0);
+  for (const Bound &particle : bound) {
+    int nearest = -1;
+    double least = INFINITY;
+    for (size_t p = 0; p < points.size(); ++p) {
+      if (taken[p]) continue;
+      const double d = cut.mesh.nearest_image(points[p] - Eigen::Vector3d(particle.x)).squaredNorm();
+      if (d >= least) continue;
+      least = d;
+      nearest = p;
+    }
+    if (nearest < 0)
+      throw MeshError(fmt::format("there are {} inclusions and {} vertices, which have one at most; use a larger subdivide",
+                                  bound.size(), points.size()));
+    taken[nearest] = 1;
+    what.vertices.inclusions.push_back({particle.type, nearest});
+  }
+}
+
 /* ---------------------------------------------------------------------- */
 
 void WriteMembrane::write(const Surface &what) const
@@ -246,7 +332,7 @@ void WriteMembrane::write(const Surface &what) const
       Membrane_NS::write_ply(path, what.mesh, what.fields);
       break;
     case Format::TSI:
-      Membrane_NS::write_tsi(path, what.mesh);
+      Membrane_NS::write_tsi(path, what.mesh, {}, what.vertices);
       break;
     case Format::VTP:
       Membrane_NS::write_vtp(path, what.mesh, what.fields);

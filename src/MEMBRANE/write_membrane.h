@@ -22,8 +22,10 @@ CommandStyle(write_membrane,WriteMembrane);
 
 #include "command.h"
 #include "membrane_mesh_writer.h"
+#include "membrane_tessellation.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -38,21 +40,35 @@ class WriteMembrane : public Command {
   std::string path;
   enum class Format { OFF, PLY, TSI, VTP } format;
   int subdivide;
-  bool fields;
+  bool fields, domains;
+  std::vector<std::pair<std::string, int>> inclusions;    // fixes hd/bind, and the type in the file
   std::vector<tagint> chosen;    // molecule IDs; all membranes if empty
 
   // what goes into the file
   struct Surface {
     Membrane_NS::TriangleMesh mesh;
     Membrane_NS::PointFields fields;
+    Membrane_NS::TsiVertices vertices;
   };
+
+  // of all ranks, for a file that tells them
+  struct Bound {
+    tagint id;
+    int type;
+    double x[3];
+  };
+  std::vector<Bound> bound;
+  std::vector<int> types;    // of control points, by vertex
 
   void parse(int, char **);
   void parse_format();
   bool format_has_fields() const { return format == Format::PLY || format == Format::VTP; }
   Membrane_NS::TriangleMesh control_mesh(const class DistributedMesh &,
-                                         std::vector<double> &labels) const;
+                                         std::vector<double> &labels, std::vector<int> &vertices) const;
+  void gather_vertices(const DistributedMesh &);
   Surface surface(const DistributedMesh &) const;
+  void set_vertices(const Membrane_NS::Topology &, const Membrane_NS::TessellatedSurface &, const std::vector<int> &of,
+                    Surface &) const;
   void write(const Surface &) const;
 };
 

@@ -52,6 +52,12 @@ claim("flicker: the spectrum is near theory", code == 0 and len(ratios) == 9 and
 kc, error = float(rows[-2][2]), float(rows[-2][4])
 claim("    and so is the bending modulus that is fitted to it", abs(kc - 1) < 0.02 + 3 * error, f"{kc} +- {error}")
 
+example("tension", ("run             2000", "run             300"), ("run             10000", "run             600"))
+code, rows = plotted("tension", "tension.txt")
+claim("tension: two frames, each with its membrane near the area of theory",
+      code == 0 and len(rows) == 4 and all(abs(float(row[2]) / float(row[5]) - 1) < 0.005 for row in rows[::2]),
+      [row[2:6] for row in rows[::2]])
+
 example("relaxation_srd", ("loop 6", "loop 2"), ("run             2000", "run             1000"), script="in.plane")
 example("relaxation_srd", ("loop 6", "loop 2"), script="in.vesicle")
 shutil.copy(os.path.join(EXAMPLES, "relaxation_srd", "plot.py"), ".")
@@ -78,5 +84,11 @@ free, crowded = [[float(row[7].rstrip(",")) for row in rows if row[:2] == ["fitt
 error = [float(row[9].rstrip(",")) for row in rows if row[:2] == ["fitted", "tracers"]]
 claim("bound: tracers diffuse as they do when free", code == 0 and abs(free[1] - 0.1) < 0.005 + 3 * error[1], f"{free} +- {error}")
 claim("    and proteins that crowd one another more slowly", all(0.3 < c / 0.1 < 0.6 for c in crowded), crowded)
+
+output = example("bound_sorting", ("run             8000", "run             1200"), ("run             2000", "run             1000"),
+                 script="in.sorting")
+code, rows = plotted("bound_sorting", "sorting.txt")
+crests, theory = float(rows[-1][4]), float(rows[-1][8])
+claim("bound_sorting: coats gather on the crests", code == 0 and crests > 1.5 and theory > 1.5, f"{crests}, theory {theory}")
 
 finish()

@@ -1,0 +1,388 @@
+"""membrane_build: lipids of a patch on membranes, whole and as many as the area asks for; its files read back by others; odd
+PDB files and bad input."""
+# cost: 40
+
+import glob
+import json
+import math
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+
+from lammps_claims import EXAMPLES, LMP, LONG, MPIEXEC, claim, error_of, finish, lammps, run, skip, start
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+FOLDER = os.path.join(EXAMPLES, "molecules")
+for name in (path for end in ("pdb", "cif", "gro", "data", "psf", "top", "part") for path in glob.glob(f"*.{end}")):
+    os.remove(name)    # of an earlier run in this folder
+for name in glob.glob(os.path.join(FOLDER, "*")):
+    shutil.copy(name, ".")
+sys.path.insert(0, FOLDER)
+import make_patch    # noqa: E402
+
+START = """
+units           real
+atom_style      membrane_cp
+region          box block {box}
+create_box      2 box angle/types 1
+create_membrane 1 {shape}
+set             type 1 mass 1000
+"""
+BEADS = len(make_patch.NAMES)
+
+
+def script(shape, box, options, more=""):
+    return START.format(shape=shape, box=box) + more + f"membrane_build {options}\n"
+
+
+def remove(name):
+    for path in glob.glob(name + ".*"):
+        os.remove(path)
+
+
+def report(output, what):
+    return next((line.strip() for line in output.split("\n") if what in line), "")
+
+
+def numbers_of(output, leaflet):
+    """Lipids of a leaflet, and what its area asks for."""
+    words = report(output, f"{leaflet} leaflet:").split()
+    return int(words[words.index("lipids,") - 1]), float(words[words.index("by") - 1])
+
+
+def clashing(output):
+    return float(report(output, "lipids in a clash, with").split("%")[0].split(",")[-1]) / 100
+
+
+def closest(output):
+    return float(report(output, "closest pair of lipids:").split()[4])
+
+
+def read_data(path):
+    """Unwrapped places by molecule, and the bonds, of a data file."""
+    lines = open(path).read().split("\n")
+    lengths = [next(float(line.split()[1]) - float(line.split()[0]) for line in lines if line.endswith(f"{k}lo {k}hi")) for k in "xyz"]
+    def section(title):
+        first = next(i for i, line in enumerate(lines) if line.startswith(title)) + 2
+        last = next((i for i in range(first, len(lines)) if not lines[i]), len(lines))
+        return [line.split() for line in lines[first:last]]
+    molecules = {}
+    for words in section("Atoms"):
+        x = [float(words[4 + k]) + lengths[k] * int(words[7 + k]) for k in range(3)]
+        molecules.setdefault(int(words[1]), []).append(x)
+    return list(molecules.values()), [[int(w) for w in words[2:]] for words in section("Bonds")]
+
+
+def minus(a, b):
+    return [p - q for p, q in zip(a, b)]
+
+
+def dot(a, b):
+    return sum(p * q for p, q in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def shape_of(lipid):
+    """Distances within a lipid, and its handedness: what rigid motion keeps."""
+    pairs = [(0, 1), (1, 2), (2, 3), (0, 7), (0, 11), (7, 11), (2, 9), (4, 8)]
+    lengths = [math.dist(lipid[a], lipid[b]) for a, b in pairs]
+    return lengths + [dot(cross(minus(lipid[4], lipid[0]), minus(lipid[8], lipid[0])), minus(lipid[2], lipid[0])) / 100]
+
+
+code, output = lammps(open("in.patch").read(), args=["-var", "steps", 800 if not LONG else 5000])
+claim("the example makes a patch", code == 0 and os.path.exists("patch.psf"), output[-300:] if code else "")
+if "cannot read files of molecules" in error_of(script("sphere 2 50", "-90 90 -90 90 -90 90", "patch patch.pdb out no/such/folder/none")):
+    skip("the package was compiled without gemmi")
+
+patch = make_patch.read_places()
+patch = [patch[i:i + BEADS] for i in range(0, len(patch), BEADS)]
+middle = sum(x[2] for lipid in patch for x in lipid) / len(patch) / BEADS
+heads = sum(abs(lipid[1][2] - middle) for lipid in patch) / len(patch)
+FROM_PATCH = "patch patch.pdb psf patch.psf seed 1 "
+
+# === Curved membranes
+
+BOX = "-100 100 -100 100 -100 100"
+SPHERE = f"sphere 3 {50 if LONG else 40} interpolate yes"
+first = None
+for ranks in (1, 3) if MPIEXEC else (1,):
+    output = run(script(SPHERE, BOX, FROM_PATCH + f"format pdb,cif,gro,data,top out ball{ranks}"), ranks=ranks)
+    files = {path.split(".")[1]: open(path).read() for path in glob.glob(f"ball{ranks}.*")}
+    if first:
+        same = [end for end in files if files[end] != first[end]]
+        claim("    the same files from three ranks", not same and len(files) == 6, same)
+        break
+    first = files
+    for leaflet in ("outer", "inner"):
+        number, wanted = numbers_of(output, leaflet)
+        claim(f"sphere, {leaflet} leaflet: as many lipids as the area asks for", abs(number - wanted) < 0.51, (number, wanted))
+    claim("    at most 3 % of lipids have a pair closer than 0.8 of the closest in the patch", clashing(output) < 0.03, clashing(output))
+    claim("    no pair closer than 1.5 A", closest(output) > 1.5, closest(output))
+    claim("    the progress is shown", "relaxation 4 of 4" in output)
+molecules, bonds = read_data("ball1.data")
+count = len(molecules)
+shapes = sorted(shape_of(lipid) for lipid in patch)
+off = 0.0
+for lipid in molecules[::7]:
+    mine = shape_of(lipid)
+    off = max(off, min(max(abs(a - b) for a, b in zip(mine, shape)) for shape in shapes))
+claim("    every lipid has the shape of one of the patch, not mirrored", off < 0.01, off)
+outer = numbers_of(output, "outer")[0] if not MPIEXEC else int(first["top"].split("DPPC")[1].split()[0])
+wrong = [m for m, lipid in enumerate(molecules) if (math.hypot(*lipid[0]) > math.hypot(*lipid[7])) != (m < outer)]
+claim("    heads outward on both leaflets, tails inward", not wrong, len(wrong))
+
+output = run(script("cylinder 30 8 100 z interpolate yes", "-180 180 -180 180 -30 30", FROM_PATCH + "out tube"))
+molecules, _ = read_data("tube.data")
+outer, inner = (numbers_of(output, leaflet)[0] for leaflet in ("outer", "inner"))
+for name, part in (("outer", molecules[:outer]), ("inner", molecules[outer:])):
+    height = sum(abs(math.hypot(*lipid[1][:2]) - 100) for lipid in part) / len(part)
+    claim(f"tube of 100 A: heads of the {name} leaflet within 1.5 A of their height in the patch", abs(height - heads) < 1.5,
+          (height, heads))
+    number, wanted = numbers_of(output, name)
+    claim("    as many as the area asks for", abs(number - wanted) < 0.51, (number, wanted))
+claim("    at most 3 % of lipids in a clash", clashing(output) < 0.03, clashing(output))
+if LONG:
+    for shape, limit in (("sphere 4 100 interpolate yes", 0.03), ("torus 48 32 120 60 interpolate yes", 0.05),
+                         ("torus 48 32 100 50 interpolate yes", 0.05), ("plane 24 28", 0.03)):
+        box = "-100 100 -100 100 -60 60" if "plane" in shape else "-300 300 -300 300 -150 150"
+        output = run(script(shape, box, FROM_PATCH + "overwrite yes out long"), timeout=3000)
+        claim(f"{shape}: clashes within the limit", clashing(output) < limit and closest(output) > 1.5,
+              (clashing(output), closest(output)))
+        for leaflet in ("outer", "inner"):
+            number, wanted = numbers_of(output, leaflet)
+            claim("    as many as the area asks for", abs(number - wanted) < 0.51, (number, wanted))
+
+# === What others read
+
+def mdanalysis(*files):
+    for python in (sys.executable, "/usr/bin/python3"):
+        done = subprocess.run([python, os.path.join(HERE, "read_molecules.py"), *files], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True)
+        if done.returncode == 0:
+            return json.loads(done.stdout)
+        if "No module named 'MDAnalysis'" not in done.stderr:
+            print(done.stderr)
+    return None
+
+
+seen = mdanalysis("ball1.psf", "ball1.pdb")
+if seen:
+    claim("MDAnalysis reads PSF and PDB: atoms, residues, bonds and angles",
+          (seen["atoms"], seen["residues"], seen["bonds"], seen["angles"]) == (12 * count, count, 11 * count, 8 * count), seen["atoms"])
+    claim("    names and box", seen["names"] == make_patch.NAMES and seen["resnames"] == ["DPPC"] and
+          seen["box"] == [200, 200, 200, 90, 90, 90], seen["box"])
+    widest = max(math.dist(a, b) for lipid in patch for a, b in ((lipid[i], lipid[j]) for _, i, j in make_patch.BONDS))
+    claim("    and bonds no longer than those of the patch", max(seen["lengths"]) < widest + 0.01, max(seen["lengths"]))
+    read_first = seen["places"]
+    for files, unit in ((("ball1.gro",), 1), (("ball1.data",), 1)):
+        seen = mdanalysis(*files)
+        shift = 100 if files[0].endswith("data") else 0
+        off = max(abs(a + shift - b) for x, y in zip(seen["places"], read_first) for a, b in zip(x, y))
+        off = min(off, 200) if files[0].endswith("gro") else min(abs(off), abs(off - 200))
+        claim(f"    {files[0]} has the same places", seen["atoms"] == 12 * count and off < 0.01, off)
+else:
+    print("note   MDAnalysis is missing (Debian: python3-mdanalysis): files are read back by LAMMPS only")
+
+output = run(open("in.relax").read().replace("run             200", "run             0"), args=["-var", "name", "ball1"], timeout=600)
+energies = [float(line.split()[2]) for line in output.split("\n") if len(line.split()) == 7 and line.split()[0] in ("0", "300")]
+claim("LAMMPS reads the data file, and the structure relaxes", len(energies) >= 2 and energies[1] < 100 < energies[0], energies)
+
+# === A small patch, and a plane of whole multiples of it
+
+SIDE = 6
+places = make_patch.lattice(SIDE)
+SMALL = 2 * SIDE * SIDE
+make_patch.finish(places, "small", SIDE, lambda m: "DPPC" if m % 4 else "DOPC")
+PLANE, PLANE_BOX = "plane 16 18", "0 96 0 96 -40 40"
+output = run(script(PLANE, PLANE_BOX, "patch small.pdb psf small.psf out plane"))
+molecules, _ = read_data("plane.data")
+claim("a plane of whole multiples has copies of the patch", "copies of it, unchanged" in output and len(molecules) == 4 * SMALL)
+
+
+def distance(lipid, other):
+    d = [minus(x, y) for x, y in zip(lipid, other)]
+    d = [[v - 48 * round(v / 48) for v in x[:2]] + x[2:] for x in d]
+    return max(max(abs(v) for v in minus(x, [0, 0, d[0][2]])) for x in d)
+
+
+lipids = [places[i:i + BEADS] for i in range(0, len(places), BEADS)]
+off = max(min(distance(lipid, other) for other in lipids) for lipid in molecules[::5])
+claim("    each lipid is where one of the patch is", off < 0.002, off)
+output = run(script(PLANE, PLANE_BOX, "patch small.pdb psf small.psf flip yes out flipped"))
+claim("    turned over by flip", "copies of it" in output and
+      open("flipped.pdb").read() != open("plane.pdb").read() and clashing(output) == 0)
+
+# === Composition, two patches, one membrane of two
+
+output = run(script("sphere 2 40 interpolate yes", BOX, "patch small.pdb psf small.psf out mixed"))
+for leaflet in ("outer", "inner"):
+    number, _ = numbers_of(output, leaflet)
+    names = report(output, f"{leaflet} leaflet:").split("(")[1].split(")")[0]
+    dopc = int(names.split(" DOPC")[0].split()[-1])
+    claim(f"a quarter of the {leaflet} leaflet is DOPC", abs(dopc - number / 4) <= 1, names)
+make_patch.finish(places, "other", SIDE, lambda m: "POPG")
+output = run(script("sphere 2 40 interpolate yes", BOX, "outer small.pdb inner other.pdb out two"))
+claim("a patch for each leaflet", "POPG" in report(output, "inner leaflet:") and "POPG" not in report(output, "outer leaflet:"))
+more = "create_membrane 1 sphere 2 40 center 0 0 0 molecule 2 interpolate yes\n"
+code, output = lammps(script("sphere 3 120 interpolate yes", "-150 150 -150 150 -150 150",
+                             "patch small.pdb membrane 2 out second", more))
+claim("one membrane of two", code == 0 and "membrane 2 outer" in output and "membrane 1 outer" not in output, output[-200:] if code else "")
+
+# === Units, restarts, proteins
+
+scaled = START.replace("units           real", "units lj").format(shape=PLANE, box="0 9.6 0 9.6 -4 4")
+output = run(scaled + "membrane_build patch small.pdb psf small.psf scale 10 out scaled\n")
+claim("units lj with a scale", open("scaled.pdb").read() == open("plane.pdb").read())
+run(script(PLANE, "0 90 0 80 -40 40", "patch small.pdb psf small.psf overwrite yes out wavy",
+           "variable wave atom 6*cos(2*PI*x/lx)\nset type 1 z v_wave\nwrite_restart state\n"))
+before = open("wavy.pdb").read()
+run("read_restart state\nmembrane_build patch small.pdb psf small.psf overwrite yes out again\n", ranks=2 if MPIEXEC else 1)
+claim("a restart file gives the same structure", open("again.pdb").read() == before)
+
+with open("helix.pdb", "w") as file:
+    for i in range(20):
+        file.write(make_patch.pdb_line(i + 1, "CA", "LEU", "P", i + 1, (4 * math.cos(1.7 * i), 4 * math.sin(1.7 * i), 2 * (i - 9.5)), ""))
+more = """
+group points type 1
+create_bound 2 2 points 11
+group bound type 2
+set type 2 mass 100
+fix b bound hd/bind points
+"""
+output = run(script("sphere 3 40 interpolate yes", BOX, "patch small.pdb psf small.psf protein b helix.pdb out protein", more))
+lines = [line for line in open("protein.pdb") if " LEU P" in line]
+place = [[float(line[30 + 8 * k:38 + 8 * k]) - 100 for k in range(3)] for line in lines]
+claim("a protein at each bound particle, lipids make room", len(lines) == 40 and "made room for proteins" in output, len(lines))
+straight = max(abs(math.dist(place[i], place[i + 19]) - math.dist(
+    (4, 0, -19), (4 * math.cos(1.7 * 19), 4 * math.sin(1.7 * 19), 19))) for i in (0, 20))
+along = [math.hypot(*place[i + 19]) - math.hypot(*place[i]) for i in (0, 20)]
+claim("    whole, along the normal", straight < 0.01 and all(abs(d - 38) < 2.5 for d in along), along)
+
+# === Odd PDB files
+
+TEXT = open("small.pdb").read()
+LINES = TEXT.split("\n")
+ATOMS = [line for line in LINES if line.startswith("ATOM")]
+
+
+def built(text, name="odd"):
+    """The report, or the error, of a build on the plane with a patch of this text."""
+    with open(name + ".in.pdb", "w", newline="") as file:
+        file.write(text)
+    code, output = lammps(script(PLANE, PLANE_BOX, f"patch {name}.in.pdb overwrite yes out {name}"))
+    lines = [line for line in output.split("\n") if line.startswith("ERROR")]
+    return lines[0] if code else output
+
+
+def same(text, what, note=""):
+    output = built(text)
+    fine = "copies of it" in output and f"{4 * SMALL} molecules" in output and note in output
+    if fine:
+        molecules, _ = read_data_without_bonds("odd.data")
+        fine = max(min(distance(lipid, other) for other in lipids) for lipid in molecules[::31]) < 0.01
+    claim(f"odd PDB: {what}", fine, "" if fine else output[-300:])
+
+
+def read_data_without_bonds(path):
+    with open(path, "a") as file:
+        file.write("\nBonds\n\n1 1 1 2\n")
+    return read_data(path)
+
+
+def changed(change):
+    return "\n".join(change(line) if line.startswith("ATOM") else line for line in LINES)
+
+
+claim("odd PDB: no CRYST1", "CRYST1" in built("\n".join(LINES[1:])))
+claim("odd PDB: box without volume", "no volume" in built(TEXT.replace("   48.000   48.000   90.000", "    0.000    0.000    0.000")))
+half = len(ATOMS) // 2
+claim("odd PDB: one leaflet only", "one leaflet only" in built("\n".join(LINES[:1] + ATOMS[:half] + ["END"])))
+claim("odd PDB: a line cut short", "line 40" in built("\n".join(line[:50] if i == 39 else line for i, line in enumerate(LINES))))
+claim("odd PDB: stars for a coordinate", "no number for y" in built(TEXT.replace(ATOMS[5], ATOMS[5][:38] + "********" + ATOMS[5][46:])))
+same("\n".join(l + ("\nTER" if i % 12 == 0 and i else "") for i, l in enumerate(LINES[:-2])) + "\nCONECT    1    2\nCONECT    2    3    4\nEND\n",
+     "TER after each lipid, and CONECT")
+same(changed(lambda line: line[:76]), "no elements")
+same(changed(lambda line: "atom  " + line[6:]), "lower case")
+same(TEXT.replace("\n", "\r\n"), "CRLF")
+same(changed(lambda line: line[:22] + f"{int(line[22:26]) // 3:4d}" + "ABC"[int(line[22:26]) % 3] + line[27:]), "insertion codes")
+same(changed(lambda line: line[:22] + "   7 " + line[27:]), "all residues with one number")
+same(changed(lambda line: line[:6] + "A" + f"{int(line[6:11]):04d}" + line[11:]), "hybrid-36 serials")
+same(changed(lambda line: line[:22] + "A" + f"{int(line[22:26]):03d}" + line[26:]), "hybrid-36 residues")
+same(changed(lambda line: "HETATM" + line[6:]), "HETATM")
+same(LINES[0] + "\nMODEL        1\n" + "\n".join(ATOMS) + "\nENDMDL\nMODEL        2\n" + "\n".join(ATOMS) + "\nENDMDL\nEND\n", "two models",
+     "of 2 models the first")
+same(changed(lambda line: line[:46] + f"{(float(line[46:54]) + 40) % 90:8.3f}" + line[54:]), "lipids wrapped along z")
+same(changed(lambda line: line[:16] + "A" + line[17:] + "\n" + line[:16] + "B" + line[17:30] + "   0.000" + line[38:]),
+     "alternate places", "alternate places")
+water = "".join(make_patch.pdb_line(5000 + i, "W", "W", " ", 500 + i, (8 * (i % 6), 8 * (i // 6), 44)) for i in range(36))
+same("\n".join(LINES[:-2]) + "\n" + water + "END\n", "water", "left out: 36 W")
+
+# === Bad input
+
+def error(options, shape=PLANE, box=PLANE_BOX, **more):
+    return error_of(script(shape, box, options), **more)
+
+
+remove("bad")
+for options, expected in (
+        ("patch none.pdb out bad", "cannot read none.pdb"),
+        ("patch small.pdb", "needs out"),
+        ("out bad", "needs a patch"),
+        ("patch small.pdb inner small.pdb out bad", "needs a patch, or else"),
+        ("inner small.pdb out bad", "needs a patch, or else"),
+        ("patch small.pdb psf patch.psf out bad", "take the PSF of this structure"),
+        ("patch small.pdb psf small.pdb out bad", "begins with the word PSF"),
+        ("patch small.pdb composition from/lipids out bad", "fix hd/lipids"),
+        ("patch small.pdb composition POPC out bad", "from/patch or from/lipids"),
+        ("patch small.pdb format xyz out bad", "not one of pdb"),
+        ("patch small.pdb format psf out bad", "needs the PSF file"),
+        ("patch small.pdb seed 0 out bad", "seed 0 must be positive"),
+        ("patch small.pdb clash -1 out bad", "clash -1 must be positive"),
+        ("patch small.pdb membrane 9 out bad", "membrane 9 does not exist"),
+        ("patch small.pdb protein nofix helix.pdb out bad", "nofix"),
+        ("patch small.pdb colour red out bad", "Unknown membrane_build keyword colour"),
+        ("patch small.pdb out no/such/folder/bad", "cannot write no/such/folder/bad"),
+        ("patch small.pdb out plane", "there is a file plane.pdb already"),
+        ("patch helix.pdb out bad", "CRYST1")):
+    line = error(options)
+    claim(f"error: {options}", expected in line and not glob.glob("bad.*"), line)
+claim("error: units of unknown length", "scale" in error_of(scaled + "membrane_build patch small.pdb out bad\n"))
+line = error("patch small.pdb out bad", "sphere 2 15", BOX)
+claim("error: a membrane too curved for the patch, and where", "radius of" in line and "near" in line, line)
+with open("small.psf") as file:
+    psf = file.read()
+with open("short.psf", "w") as file:
+    file.write(psf[:len(psf) // 2])
+line = error("patch small.pdb psf short.psf out bad")
+claim("error: a PSF file cut short", "ends" in line or "needs number" in line or "too many" in line, line)
+with open("named.psf", "w") as file:
+    file.write(psf.replace("DOPC", "DLPC", 1))
+claim("error: names that disagree", "atom 1 is NC3 of DLPC" in error("patch small.pdb psf named.psf out bad"))
+line = error_of("units real\natom_style angle\nregion box block 0 1 0 1 0 1\ncreate_box 1 box\nmembrane_build patch a.pdb out bad\n")
+claim("error: no membranes", "membrane_cp" in line, line)
+
+
+def little_room():
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))
+
+
+before = open("plane.pdb").read()
+with open("in.full", "w") as file:
+    file.write(script(PLANE, PLANE_BOX, "patch small.pdb overwrite yes format data,pdb out plane"))
+done = subprocess.run([LMP, "-in", "in.full", "-log", "none"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                      preexec_fn=little_room, env={**os.environ, "OMPI_MCA_btl_vader_backing_directory": "/dev/shm"})
+left = glob.glob("*.part")
+if "cannot write" in done.stdout or "ERROR" in done.stdout:
+    claim("error: no room for the file; what was there is as it was",
+          done.returncode != 0 and "cannot write plane" in done.stdout and not left and open("plane.pdb").read() == before,
+          done.stdout[-300:])
+else:
+    print("note   this system does not limit the size of files so", done.returncode)
+finish()
