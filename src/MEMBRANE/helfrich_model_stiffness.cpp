@@ -35,7 +35,7 @@ using Membrane_NS::StiffnessReference;
 ------------------------------------------------------------------------- */
 
 std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of,
-                                               const std::vector<Vector3d> &moved)
+                                              const std::vector<Vector3d> &moved)
 {
   Conjugates unit;
   unit.*of = 1.0;
@@ -43,7 +43,8 @@ std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of,
   scene.conjugates.assign(scene.types.size(), Conjugates());
   scene.conjugates[m] = unit;
   FaceModel model = scene.model;
-  for (auto *zero : {&model.kc, &model.c0, &model.kg, &model.tension, &model.moment, &model.pressure})
+  for (auto *zero :
+       {&model.kc, &model.c0, &model.kg, &model.tension, &model.moment, &model.pressure})
     std::fill(zero->begin(), zero->end(), 0.0);
   for (const FaceGroup &group : scene.groups)
     for (int s = 0; s < group.nslots(); ++s) {
@@ -98,7 +99,8 @@ StiffnessReference HelfrichModel::describe()
   const int n = topology.num_vertices(), nfaces = topology.num_faces();
   StiffnessReference reference;
   reference.closed.resize(topology.num_components());
-  for (int c = 0; c < topology.num_components(); ++c) reference.closed[c] = scene.mesh->is_closed(c);
+  for (int c = 0; c < topology.num_components(); ++c)
+    reference.closed[c] = scene.mesh->is_closed(c);
 
   // vertices: place and kc
 

@@ -46,7 +46,8 @@ double StiffnessReference::distance(const TriangleMesh &now, const Topology &top
 
 static constexpr double CUTOFF = 0.5;
 
-static std::vector<Vector3d> without_short_waves(const TriangleMesh &shape, const Topology &topology)
+static std::vector<Vector3d> without_short_waves(const TriangleMesh &shape,
+                                                 const Topology &topology)
 {
   const int n = topology.num_vertices();
   std::vector<Eigen::Triplet<double>> entries;

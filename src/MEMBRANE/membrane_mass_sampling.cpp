@@ -92,8 +92,10 @@ void SamplingMass::build_factors(const Topology &topology, const std::vector<dou
   for (int f = 0; f < topology.num_faces(); ++f) {
     const Face &face = topology.face(f);
     const int c = topology.component(face[0]), open = reference.closed[c] ? 0 : 1;
-    const double unit = 4.0 * M_PI / areas.components[c] * (kc[face[0]] + kc[face[1]] + kc[face[2]]) / 3.0;
-    tension[f] = std::max(reference.tension[f], (LEAST[open] - (open ? CONTINUING : CLOSED).s) * unit);
+    const double unit =
+        4.0 * M_PI / areas.components[c] * (kc[face[0]] + kc[face[1]] + kc[face[2]]) / 3.0;
+    tension[f] =
+        std::max(reference.tension[f], (LEAST[open] - (open ? CONTINUING : CLOSED).s) * unit);
   }
   const SparseMatrix k = cotangent_laplacian(reference.shape, topology,
                                              std::vector<double>(topology.num_faces(), 1.0));
@@ -123,7 +125,8 @@ void SamplingMass::build_factors(const Topology &topology, const std::vector<dou
   tangent_factor_ = std::make_unique<SparseCholesky>(sliding_);
   SparseMatrix blocked = sliding_;
   for (int v = 0; v < n; ++v)
-    for (SparseMatrix::InnerIterator at(blocked, v); at; ++at) at.valueRef() *= normals_[v].dot(normals_[at.row()]);
+    for (SparseMatrix::InnerIterator at(blocked, v); at; ++at)
+      at.valueRef() *= normals_[v].dot(normals_[at.row()]);
   blocked_factor_ = std::make_unique<SparseCholesky>(blocked);
   find_turning(topology, areas.components);
 }
@@ -319,12 +322,15 @@ void SamplingMass::multiply(const VertexField &v, VertexField &p)
   const auto n = static_cast<int>(all_.size());
   std::vector<Vector3d> speed(turning_.size(), Vector3d::Zero());
   for (size_t t = 0; t < turning_.size(); ++t) {
-    for (int i : turning_[t].vertices) speed[t] += normals_[i] * normals_[i].dot(Map<Vector3d>(all_[i].c));
+    for (int i : turning_[t].vertices)
+      speed[t] += normals_[i] * normals_[i].dot(Map<Vector3d>(all_[i].c));
     speed[t] = turning_[t].inverse_square * speed[t];
     for (int i : turning_[t].vertices) Map<Vector3d>(all_[i].c) -= speed[t];
   }
   VectorXd totals = VectorXd::Zero(u_.cols());
-  if (stiffness_.size()) totals.head(stiffness_.size()) = stiffness_.cwiseProduct(products(u_, all_).head(stiffness_.size()));
+  if (stiffness_.size())
+    totals.head(stiffness_.size()) =
+        stiffness_.cwiseProduct(products(u_, all_).head(stiffness_.size()));
 
   Vectors along(n, 3), across(n, 3);
   VectorXd out(n);
@@ -347,7 +353,8 @@ void SamplingMass::multiply(const VertexField &v, VertexField &p)
     Vector3d missing = speed[t] / turning_[t].mobility;
     for (int i : turning_[t].vertices) missing -= Map<Vector3d>(all_[i].c);
     missing = turning_[t].inverse_square * missing;
-    for (int i : turning_[t].vertices) Map<Vector3d>(all_[i].c) += normals_[i] * normals_[i].dot(missing);
+    for (int i : turning_[t].vertices)
+      Map<Vector3d>(all_[i].c) += normals_[i] * normals_[i].dot(missing);
   }
   scatter(all_, p);
 }
@@ -384,6 +391,7 @@ void SamplingMass::add_gauge_forces(double kT, const VertexField &x, VertexField
 double SamplingMass::memory_usage() const
 {
   return MassOperator::memory_usage() + normal_factor_->memory_usage() +
-      tangent_factor_->memory_usage() + blocked_factor_->memory_usage() + 12.0 * (undulation_.nonZeros() + sliding_.nonZeros()) +
+      tangent_factor_->memory_usage() + blocked_factor_->memory_usage() +
+      12.0 * (undulation_.nonZeros() + sliding_.nonZeros()) +
       sizeof(double) * (u_.size() + y_.size());
 }

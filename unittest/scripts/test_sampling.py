@@ -127,6 +127,9 @@ drift = max(abs(row["Econserve"] - rows[0]["Econserve"]) for row in rows)
 claim("along a ramp the energy with that of the bath is conserved, the measure's share included",
       drift < 0.02 * abs(rows[-1]["c_e[10]"] - rows[0]["c_e[10]"]),
       f"{drift:.3f} while the measure changes by {rows[-1]['c_e[10]'] - rows[0]['c_e[10]']:.1f}")
+rows = thermo(run(SCENE + LANGEVIN.strip() + " tally yes\ntimestep 0.1\nrun 400\nrun 400\n"))[-40:]
+drift, swing = (max(values) - min(values) for values in zip(*((row["Econserve"], row["TotEng"]) for row in rows)))
+claim("with mass sampling it is, too", drift < 0.01 < 1 < swing, f"{drift:.4f} while the energy changes by {swing:.2f}")
 rows = thermo(run(SCENE + "velocity all create 0.05 7\nfix 1 all hd/nve measure 0.05\ntimestep 5e-4\nrun 2000\n"))
 drift = max(abs(row["TotEng"] - rows[0]["TotEng"]) for row in rows)
 claim("hd/nve with the measure conserves energy", drift < 2e-3 * max(row["KinEng"] for row in rows), f"{drift:.1e}")
