@@ -2,15 +2,18 @@
 """What bound particles cost: the time of a step with them over that of the same step without.
 
   bench/bound.py [--lmp build/lmp] [--level 5] [--particles 1000] [--steps 40] [--repeat 5] [--ranks 1]
+  bench/bound.py --messages [--ranks 2]    what a rank sends in a step, by bench/messages.c, in place of times
 
 A vesicle of 10 * 4^level + 2 control points by fix hd/nve; particles by fix nve. The runs alternate, and medians of
 the ratios of successive runs are printed, with their range. "motion" is without holding, fix nve and ghosts alone.
 """
 
 import argparse
+import os
 import re
 import statistics
 import subprocess
+import tempfile
 
 SCRIPT = """
 units           lj
@@ -38,11 +41,36 @@ HOLDS = {"motion": "", "spring": "fix b p hd/bind mem", "spring, Brownian": "unf
          "footprint": "fix b p hd/bind mem footprint 2 0.001 20 0 {rho}"}
 
 
+def output_of(args, n, bind, steps, environment=()):
+    text = SCRIPT.format(level=args.level, n=n, bind=bind.format(rho=1.5 * 2.15 / 2**args.level * 0.5), steps=steps)
+    command = ["mpirun", "--oversubscribe", "-np", str(args.ranks), *environment] if args.ranks > 1 else []
+    return subprocess.run(command + [args.lmp, "-log", "none", "-in", "/dev/stdin"], input=text, text=True,
+                          capture_output=True).stdout
+
+
+def sent(args, n, bind, library):
+    """Messages, bytes and collective sums of a step, means over ranks: the difference of two runs."""
+    totals = []
+    for steps in (20, 40):
+        lines = re.findall(r"sent (\d+) messages, (\d+) bytes, took part in (\d+)", output_of(
+            args, n, bind, steps, ("-x", "LD_PRELOAD=" + library)))
+        totals.append([sum(int(line[k]) for line in lines) / args.ranks for k in range(3)])
+    return [(b - a) / 20 for a, b in zip(*totals)]
+
+
+def print_messages(args):
+    with tempfile.TemporaryDirectory() as folder:
+        library = os.path.join(folder, "messages.so")
+        source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "messages.c")
+        subprocess.run(["mpicc", "-shared", "-fPIC", source, "-o", library], check=True)
+        print(f"{10 * 4**args.level + 2} control points, {args.particles} particles, {args.ranks} ranks: sent by a rank in a step")
+        for name, n, bind in [("no particles", 0, "")] + [(name, args.particles, bind) for name, bind in HOLDS.items()]:
+            messages, size, sums = sent(args, n, bind, library)
+            print(f"  {name:<28}{messages:6.1f} messages  {size / 1024:8.1f} kB  {sums:5.1f} sums", flush=True)
+
+
 def loop_time(args, n, bind):
-    text = SCRIPT.format(level=args.level, n=n, bind=bind.format(rho=1.5 * 2.15 / 2**args.level * 0.5), steps=args.steps)
-    command = ["mpirun", "--oversubscribe", "-np", str(args.ranks)] if args.ranks > 1 else []
-    out = subprocess.run(command + [args.lmp, "-log", "none", "-in", "/dev/stdin"], input=text, text=True,
-                         capture_output=True).stdout
+    out = output_of(args, n, bind, args.steps)
     times = re.findall(r"Loop time of ([\d.e+-]+)", out)
     if len(times) < 2:
         raise SystemExit(out[-2000:])
@@ -57,7 +85,12 @@ def main():
     parser.add_argument("--steps", type=int, default=40)
     parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--messages", action="store_true")
     args = parser.parse_args()
+    if args.messages:
+        args.ranks = max(args.ranks, 2)
+        print_messages(args)
+        return
     print(f"{10 * 4**args.level + 2} control points, {args.particles} particles: time of a step over that without any")
     for name, bind in list(HOLDS.items()) + [("no particles, with the fix", None)]:
         ratios = []

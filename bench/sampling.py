@@ -7,7 +7,8 @@ degree 2, in steps, and the processor time until its mean is known to 1 %.
 --inverse is kc/kT, --scale multiplies the lengths of runs, --only takes masses whose name begins so. Timesteps of masses
 lumped and vertex are a part of what hd_timestep finds, a quarter at kc = 20 kT and a half at 100 kT or colder. Times are
 processor times of this machine, without those of the measurement: compare them within a table. A run shorter than 50
-correlation times is marked with >: its time is from below.
+correlation times is marked with >: its time is from below. "of forces" is the time of a step over that of an evaluation of
+the forces alone. Modes are those of degree 0 and 2 to 6, without regularize, which they do not need.
 """
 
 import argparse
@@ -24,12 +25,16 @@ create_box      1 box angle/types 1
 create_membrane 1 sphere {level} 1.0 interpolate yes mass {mass!r}
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
-pair_coeff      1 1 1.0 0.0 volume 1000.0 {volume!r} regularize {modulus} conformal
-fix             1 all {fix}
+pair_coeff      1 1 1.0 0.0 volume 1000.0 {volume!r} {regularize}
+{fix}
 thermo          1000000
 """
 LIMIT = """
 hd_timestep     all
+"""
+FORCES = """
+timestep        0.0
+run             {steps}
 """
 RUN = """
 timestep        {dt!r}
@@ -98,7 +103,7 @@ lmp, kT, cold = os.path.abspath(options.lmp), 1 / options.inverse, options.inver
 part = 0.5 if cold else 0.25
 
 print(f"kc = {options.inverse:g} kT")
-print("points  mass                    timestep  power/theory  steps/tau  ms/step  seconds for 1 %")
+print("points  mass                    timestep  power/theory  steps/tau  ms/step  of forces  seconds for 1 %")
 for level in options.levels:
     points = 10 * 4 ** level + 2
     long, longer = {2: (8000, 60000), 3: (8000, 30000), 4: (4000, 15000)}.get(level, (300, 1000))
@@ -108,10 +113,14 @@ for level in options.levels:
             ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.8 if cold else 0.15, long, 1),
             ("lumped", f"hd/langevin {kT} {kT} 0.1 4711 mass lumped", None, longer, 10),
             ("vertex", f"hd/langevin {kT} {kT} 0.1 4711 mass vertex", None, longer, 10),
-            ("lumped, hd/brownian", f"hd/brownian {kT} 4711 gamma_t {4 * math.pi / points} mass lumped", None, longer, 20)):
+            ("lumped, hd/brownian", f"hd/brownian {kT} 4711 gamma_t {4 * math.pi / points} mass lumped", None, longer, 20),
+            ("modes", f"hd/langevin {kT} {kT} 0.15 4711 modes sphere min 0 max 6", None, longer, 5),
+            ("modes, relax eta", f"hd/brownian {kT} 4711 modes sphere min 0 max 6 relax eta 1", None, longer, 20)):
         if not name.startswith(options.only):
             continue
-        values = dict(level=level, mass=4 * math.pi / points, volume=4 * math.pi / 3, fix=fix, every=every, modulus=0.5 if cold else 1.0)
+        regularize = "" if "modes" in name else f"regularize {0.5 if cold else 1.0} conformal"
+        values = dict(level=level, mass=4 * math.pi / points, volume=4 * math.pi / 3, fix="fix 1 all " + fix, every=every,
+                      regularize=regularize)
         steps = max(200, int(steps * options.scale))
         try:
             if dt is None:
@@ -125,8 +134,9 @@ for level in options.levels:
         tau = autocorrelation(series) * every
         # the mean of five squares of Gaussians has the variance 2/5
         cost, variance = seconds_of(lines, 1) / (steps // 20), 2 / 5 * 2 * tau
+        evaluation = seconds_of(lines_of(SCENE + FORCES, **{**values, "fix": ""}, steps=steps // 20)[0], 0) / (steps // 20)
         power = sum(a * a for x in series for a in x) / 5 / len(rows) / (kT / 24)
         mark = " " if steps > 50 * tau else ">"
         error = 1000 * power * math.sqrt(variance / steps)
         print(f"{points:6d}  {name:22s}  {dt:8.2g}  {power:6.3f}({error:3.0f})  {mark}{tau:9.1f}  "
-              f"{1000 * cost:7.2f}  {mark}{variance * cost / 1e-4:10.0f}", flush=True)
+              f"{1000 * cost:7.2f}  {cost / evaluation:9.2f}  {mark}{variance * cost / 1e-4:10.0f}", flush=True)

@@ -94,7 +94,8 @@ void ComputeHDTemp::dof_compute()
     for (int i = 0; i < atom->nlocal; ++i)
       if (atom->mask[i] & groupbit && atom->mask[i] & bind->groupbit) ++mine;
   MPI_Allreduce(&mine, &bound, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  dof = 3.0 * (mass.count() + bound) - lost - extra_dof - fix_dof;
+  const double fixed = mass.settings.modes ? 0.0 : extra_dof;    // modes have no momentum of the whole
+  dof = 3.0 * (mass.count() + bound) - lost - fixed - fix_dof;
   tfactor = dof > 0.0 ? force->mvv2e / (dof * force->boltz) : 0.0;
 }
 

@@ -65,7 +65,8 @@ FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
     noise_steps(0), most_drift(0.0),
     moved_step(-1), drawn_for(-1), passes(0), forces_due(false), remembers(false), check(true), limit_due(false), limit(0.0),
-    watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style))
+    watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style)),
+    settled_step(-1), measured_step(-1)
 {
   time_integrate = 1;
   vector_flag = global_freq = 1;
@@ -103,6 +104,7 @@ void FixHDBase::init()
   mass.init();
   faces->init();
   check_other_integrators();
+  if (modes()) check_box();
   most_drift = MOST_DRIFT * mass.mesh().longest_edge();
   if (sampling()) most_drift *= MAX(1.0, RADIUS * std::sqrt(mass.count()));
   moved_step = -1;
@@ -139,7 +141,7 @@ FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &use
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp->world);
     if (!any) continue;
     if (found &&
-        (found->mass_settings().kind != integrator->mass_settings().kind ||
+        (found->mass_settings().kind != integrator->mass_settings().kind || found->modes() != integrator->modes() ||
          found->drag_coefficient() != integrator->drag_coefficient()))
       lmp->error->all(FLERR,
                       "{}: fixes {} and {} move atoms of the group with different mass matrices; "
@@ -154,6 +156,7 @@ FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &use
 
 void FixHDBase::setup(int)
 {
+  if (modes() && modes()->has_friction() && modes()->friction.empty()) find_friction();
   accelerate();
   forces_due = true;
 
@@ -202,7 +205,7 @@ void FixHDBase::accelerate()
   forces_due = false;
   mass.refresh();
   mass.part().load(atom->f, force_field);
-  if (mass.matrix().lost_freedoms() > 0) {
+  if (sampling() && mass.matrix().lost_freedoms() > 0) {
     VertexField x(force_field.size());
     for (int i = 0; i < mass.part().owned; ++i) {
       const int j = mass.part().atom_of(i);
@@ -255,6 +258,7 @@ void FixHDBase::drift(double step)
   // here rather than in setup(), so that neither run 0 nor rerun pays for it
 
   if (limit_due) find_limit();
+  if (modes()) settle(false);
 
   MeshPart &part = mass.part();
   const double fastest = most_drift / step, most = fastest * fastest;
@@ -294,6 +298,13 @@ void FixHDBase::relax(const std::vector<double> &keep, double kT, bigint seed)
   mass.part().store(velocity, atom->v);
 }
 
+void FixHDBase::relax_modes(double time, double kT, bigint seed)
+{
+  mass.part().load(atom->v, velocity);
+  mass.matrix().relax_own(time, kT, seed, noise_steps++, velocity);
+  mass.part().store(velocity, atom->v);
+}
+
 void FixHDBase::balance(const VertexField &random1, const VertexField &random2)
 {
   MeshPart &part = mass.part();
@@ -318,9 +329,10 @@ void FixHDBase::report_runaway(tagint id_of_point)
     reason += fmt::format(", though the stability limit was about {:.3g} when the run began{}",
                           limit, shape_lost_at(id_of_point));
   error->one(FLERR,
-             "Fix {}: control point {} moved further than {} of an edge in one step: {}; "
+             "Fix {}: control point {} moved further than {} in one step: {}; "
              "hd_timestep finds the limit precisely",
-             style, id_of_point, MOST_DRIFT, reason);
+             style, id_of_point,
+             sampling() ? "a quarter of a membrane's radius" : fmt::format("{} of an edge", MOST_DRIFT), reason);
 }
 
 // a mesh that has lost its shape is stable for shorter timesteps only

@@ -35,12 +35,16 @@ class FixHDBase : public Fix {
   FixHDBase(class LAMMPS *, int, char **);
   ~FixHDBase() override;
 
+  void post_constructor() override;
   void init() override;
+  void setup_pre_force(int) override;
   void setup(int) override;
   void pre_force(int) override;
   int modify_param(int, char **) override;
   /// 0: passes over the mesh of the last M^-1 f; 1: its residual |f - M a|/|f|
   double compute_vector(int) override;
+  /// Modes, one in a row: two numbers, wave number, amplitude, velocity, energies, molecule ID
+  double compute_array(int, int) override;
   double memory_usage() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -70,6 +74,8 @@ class FixHDBase : public Fix {
   /// Collective: twice the kinetic energy by direction, mass times velocity squared.
   std::array<double, 3> twice_kinetic();
   /// Its dynamics have no meaning.
+  /// The modes that are all of its motion, or nullptr.
+  const Membrane_NS::SharedModes *modes() const { return mass.settings.modes.get(); }
   bool sampling() const { return mass.settings.kind == Membrane_NS::MassKind::SAMPLING; }
 
  protected:
@@ -95,6 +101,8 @@ class FixHDBase : public Fix {
   /// friction per vertex, one per owned vertex. Once a step.
   void relax(double keep, double kT, bigint seed);
   void relax(const std::vector<double> &keep, double kT, bigint seed);
+  /// The same for modes with friction of their own, over this time.
+  void relax_modes(double time, double kT, bigint seed);
   /** Collective, once a step: whether mass sampling is another than in the last step, since the shape has left
       its reference, or at first, so that velocities of before are worth nothing. relax() does so itself. */
   bool renew();
@@ -117,6 +125,18 @@ class FixHDBase : public Fix {
   void find_limit();
   void report_runaway(tagint);
   std::string shape_lost_at(tagint);
+
+  // === Modes, in fix_hd_modes.cpp
+
+  bigint settled_step, measured_step;
+  std::vector<std::array<double, 10>> rows;    // of the array, of measured_step
+  void check_box();
+  void displacement_from_reference(Membrane_NS::VertexField &);
+  struct OutOfSpace;
+  OutOfSpace out_of_space();
+  void settle(bool first);
+  void find_friction();
+  void measure_modes();
 };
 
 }    // namespace LAMMPS_NS

@@ -113,6 +113,12 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
     carried = word == "membrane";
     return 2;
   }
+  if (key == "sites") {
+    need(2);
+    site_path = arg[iarg + 1];
+    given = BoundSiteFile::read(lmp, site_path);
+    return 2;
+  }
   if (key == "footprint" || key == "bar") return curvature.parse(narg - iarg, arg + iarg);
   if (key == "rotate") {
     need(4);
@@ -126,7 +132,7 @@ int FixHDBind::parse(int iarg, int narg, char **arg)
   }
   error->all(FLERR,
              "Unknown fix hd/bind keyword {}; known are: max, leaflet, height, hold, correct, "
-             "brownian, friction, footprint, bar, rotate",
+             "brownian, friction, sites, footprint, bar, rotate",
              key);
   return 0;
 }

@@ -47,7 +47,7 @@ static constexpr double PRECISION = 1.0e-10;
 FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), membranebit(0), max_distance(0.0), leaflet(0), height(0.0), rigid(false),
     automatic(true), correct(Correct::DEFAULT), spring(0.0), diffusion(0.0), temperature(0.0), seed(0), carried(false),
-    turning(0.0), turning_temperature(0.0), turning_seed(0), curvature(lmp), correcting(false), mover(nullptr), noise_steps(0),
+    turning(0.0), turning_temperature(0.0), turning_seed(0), curvature(lmp), correcting(false), migrating(false), mover(nullptr), noise_steps(0),
     mesh(lmp, "Fix hd/bind"), footprint_energy(0.0), total(0), precision(0.0), chosen_for(0.0), chosen_count(0),
     energy(0.0), squares(0.0), farthest(0.0), phase(0.0), work(nullptr), answer(nullptr), exchanged(nullptr),
     allocated(0)
@@ -58,7 +58,7 @@ FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
   extscalar = 1;
   extvector = 0;
   size_vector = NUM_OUTPUT;
-  energy_global_flag = virial_global_flag = 1;
+  energy_global_flag = virial_global_flag = virial_peratom_flag = 1;
   thermo_energy = thermo_virial = 1;
   respa_level_support = 1;
   restart_global = restart_peratom = 1;
@@ -86,7 +86,10 @@ FixHDBound::~FixHDBound()
 
 int FixHDBound::setmask()
 {
-  return INITIAL_INTEGRATE | POST_FORCE | POST_FORCE_RESPA | MIN_POST_FORCE | FINAL_INTEGRATE;
+  // of exchanges it is asked before the first one of a run only
+
+  return INITIAL_INTEGRATE | POST_FORCE | POST_FORCE_RESPA | MIN_POST_FORCE | FINAL_INTEGRATE | PRE_EXCHANGE |
+      MIN_PRE_EXCHANGE;
 }
 
 // === Before a run

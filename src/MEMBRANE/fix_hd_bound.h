@@ -15,7 +15,7 @@
 #define LMP_FIX_HD_BOUND_H
 
 #include "bound_curvature.h"
-#include "bound_sites.h"
+#include "bound_site_file.h"
 #include "fix.h"
 #include "membrane_closest_point.h"
 #include "mesh_local.h"
@@ -42,6 +42,7 @@ class FixHDBound : public Fix {
 
   int setmask() override;
   void init() override;
+  void setup_pre_exchange() override;
   void setup(int) override;
   void min_setup(int) override;
   void initial_integrate(int) override;
@@ -125,6 +126,8 @@ class FixHDBound : public Fix {
   double turning, turning_temperature;    // diffusion of directors, in angle^2/time; 0: none
   bigint turning_seed;
   BoundCurvature curvature;
+  std::string site_path;    // of a file with sites, for atoms that have none yet
+  std::vector<SiteOfAtom> given;
 
  private:
   /// What a spring lets go by before a particle is said to be lost, and how far atoms are taken at first, in
@@ -134,6 +137,7 @@ class FixHDBound : public Fix {
   enum Output { STIFFNESS, COUNT, RMS, LARGEST, PHASE, FOOTPRINTS, NUM_OUTPUT };
 
   bool correcting;    // in this run
+  bool migrating;     // atoms were taken somewhere else before it
   class FixHDBase *mover;    // of the membranes, in this run, or null
   bigint noise_steps;
 
@@ -170,6 +174,9 @@ class FixHDBound : public Fix {
   void check_integrators();
   bool is_near(int, int face) const;
   void bind_free_atoms();
+  void bind_given_atoms();
+  void check_given_sites();
+  std::vector<int> components_of_group() const;
   void make_surface();
   void follow();
   void find_members();
@@ -186,6 +193,7 @@ class FixHDBound : public Fix {
   void drag_membrane();
   void diffuse();
   void couple();
+  void take_footprints(int);
   void give_director(int, const Eigen::Vector3d &normal);
   void turn_directors();
   std::vector<class FixHDBase *> integrators(bool overdamped) const;

@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -148,7 +149,15 @@ void FixHDBound::couple()
   torque.assign(members.size(), 0.0);
   footprint_energy = 0.0;
   clear_work();
-  for (size_t a = 0; a < feet.size(); ++a) {
+
+  // neighbours one after the other, since they share faces; as above not in LAMMPS' order
+
+  std::vector<int> order(feet.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
+    return sites[feet[a].atom].point.face < sites[feet[b].atom].point.face;
+  });
+  for (int a : order) {
     const int i = feet[a].atom;
     limit->look_from(i);
     auto director = Vector3d::Map(sites[i].director);
@@ -156,16 +165,29 @@ void FixHDBound::couple()
     Vector3d turn = Vector3d::Zero();
     footprint_energy += curvature.add(i, sites[i], atom->f[i], turn);
     torque[a] = director.cross(turn).dot(Vector3d::Map(sites[i].normal));
+    if (vflag_atom) take_footprints(i);
   }
   energy += footprint_energy;
-  double v[6] = {};
-  curvature.take_forces(work, v);
-  if (vflag_global)
-    for (int k = 0; k < 6; ++k) virial[k] += v[k];
+  if (!vflag_atom) take_footprints(-1);
   exchanged = work;
   comm->reverse_comm(this);
   for (int i = 0; i < atom->nlocal; ++i)
     for (int k = 0; k < 3; ++k) atom->f[i][k] += work[i][k];
+}
+
+/* ----------------------------------------------------------------------
+   The last step of the chain rule, once for all particles that share faces; or for one alone, whose virial it then is
+------------------------------------------------------------------------- */
+
+void FixHDBound::take_footprints(int i)
+{
+  double v[6] = {};
+  curvature.take_forces(work, v);
+  if (!evflag) return;
+  if (i >= 0)
+    v_tally(1, &i, 1.0, v);
+  else if (vflag_global)
+    for (int k = 0; k < 6; ++k) virial[k] += v[k];
 }
 
 // d angle = D/kT torque dt + sqrt(2 D dt) (xi_n + xi_n+1)/2, about the normal

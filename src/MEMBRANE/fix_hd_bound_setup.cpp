@@ -25,11 +25,15 @@
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
+#include "irregular.h"
 #include "mesh_box.h"
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -130,6 +134,106 @@ bool FixHDBound::is_near(int i, int face) const
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < most * most;
 }
 
+std::vector<int> FixHDBound::components_of_group() const
+{
+  const auto &topology = mesh->topology();
+  std::vector<int> inside(topology.num_components(), 0), all(inside.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh->vertex(atom->tag[i]);
+    if (v >= 0 && atom->mask[i] & membranebit) inside[topology.component(v)] = 1;
+  }
+  MPI_Allreduce(inside.data(), all.data(), static_cast<int>(inside.size()), MPI_INT, MPI_MAX, world);
+  std::vector<int> components;
+  for (int c = 0; c < topology.num_components(); ++c)
+    if (all[c]) components.push_back(c);
+  return components;
+}
+
+// of the file, once, when there are atoms to be bound
+
+void FixHDBound::check_given_sites()
+{
+  std::set<tagint> mine;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) mine.insert(atom->tag[i]);
+  std::vector<int> have(given.size()), somewhere(given.size());
+  for (size_t k = 0; k < given.size(); ++k) have[k] = mine.count(given[k].atom);
+  MPI_Allreduce(have.data(), somewhere.data(), static_cast<int>(have.size()), MPI_INT, MPI_MAX, world);
+  const std::vector<int> components = components_of_group();
+  for (size_t k = 0; k < given.size(); ++k) {
+    SiteOfAtom &one = given[k];
+    const std::string where = fmt::format("Fix hd/bind sites {}, line {}", site_path, one.line);
+    if (!somewhere[k])
+      error->all(FLERR, "{}: atom {} is not in the group of the fix", where, one.atom);
+    for (tagint corner : one.site.corner) {
+      const int v = mesh->vertex(corner);
+      if (v < 0) error->all(FLERR, "{}: atom {} is not a control point", where, corner);
+      const int c = mesh->topology().component(v);
+      if (std::find(components.begin(), components.end(), c) == components.end())
+        error->all(FLERR, "{}: control point {} is not of a membrane of group {}", where, corner, membrane_name);
+    }
+    one.site.point = find_again(*mesh, one.site);
+    if (one.site.point.face < 0)
+      error->all(FLERR, "{}: control points {}, {} and {} are not the corners of a face", where, one.site.corner[0],
+                 one.site.corner[1], one.site.corner[2]);
+    if (one.site.leaflet == 0) one.site.leaflet = leaflet ? leaflet : 1;
+    if (leaflet && leaflet != one.site.leaflet)
+      error->all(FLERR, "{}: leaflet {} is not that of the fix, {}", where, one.site.leaflet < 0 ? "in" : "out",
+                 leaflet < 0 ? "in" : "out");
+    const double place = height * one.site.leaflet;
+    if (!one.has_distance) one.site.distance = place;
+    if (std::fabs(one.site.distance - place) > FARTHEST * limit->mean_edge())
+      error->all(FLERR, "{}: the distance {:.6g} is more than half an edge from the height {:.6g}", where,
+                 one.site.distance, place);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   atoms with a place in the file are taken there, wherever they are: LAMMPS finds the ranks of these places later
+------------------------------------------------------------------------- */
+
+void FixHDBound::bind_given_atoms()
+{
+  check_given_sites();
+  const Membrane_NS::LimitSurfaceOfMesh surface(mesh->topology(), mesh->triangle_mesh());
+  std::map<tagint, const BoundSite *> by_atom;
+  for (const SiteOfAtom &one : given) by_atom[one.atom] = &one.site;
+  double farthest_moved[2] = {0.0, 0.0}, all[2];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit) || sites[i].bound()) continue;
+    const auto found = by_atom.find(atom->tag[i]);
+    if (found == by_atom.end()) continue;
+    sites[i] = *found->second;
+    const auto jet = surface.evaluate<1>(sites[i].point);
+    const Vector3d to = jet.position() + sites[i].distance * jet.normal();
+    Vector3d step = to - Vector3d::Map(atom->x[i]);
+    nearest_image(*domain, step.data());
+    Vector3d::Map(atom->x[i]) += step;
+    farthest_moved[0] = MAX(farthest_moved[0], step.norm());
+    farthest_moved[1] += 1.0;
+  }
+  MPI_Allreduce(&farthest_moved[0], &all[0], 1, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(&farthest_moved[1], &all[1], 1, MPI_DOUBLE, MPI_SUM, world);
+  migrating = true;
+  given.clear();
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Fix hd/bind {}: {:.0f} atoms bound to their sites in {}, moved by {:.3g} at most\n", id, all[1],
+                   site_path, all[0]);
+}
+
+// before LAMMPS exchanges atoms with neighbouring ranks only
+
+void FixHDBound::setup_pre_exchange()
+{
+  if (!migrating) return;
+  migrating = false;
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  domain->reset_box();
+  Irregular(lmp).migrate_atoms(1);
+  if (domain->triclinic) domain->lamda2x(atom->nlocal);
+}
+
 /* ----------------------------------------------------------------------
    atoms that have no site, or whose face is gone, get the closest one; those that are new are taken there
 ------------------------------------------------------------------------- */
@@ -147,16 +251,8 @@ void FixHDBound::bind_free_atoms()
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   if (!any) return;
 
-  const auto &topology = mesh->topology();
-  std::vector<int> inside(topology.num_components(), 0), all(inside.size());
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh->vertex(atom->tag[i]);
-    if (v >= 0 && atom->mask[i] & membranebit) inside[topology.component(v)] = 1;
-  }
-  MPI_Allreduce(inside.data(), all.data(), static_cast<int>(inside.size()), MPI_INT, MPI_MAX, world);
-  std::vector<int> components;
-  for (int c = 0; c < topology.num_components(); ++c)
-    if (all[c]) components.push_back(c);
+  if (!given.empty()) bind_given_atoms();
+  const std::vector<int> components = components_of_group();
   if (components.empty())
     error->all(FLERR, "Fix hd/bind: group {} has no control points to bind to", membrane_name);
 
@@ -188,9 +284,12 @@ void FixHDBound::bind_free_atoms()
     site.distance += off;
     moved[0] = MAX(moved[0], std::fabs(off));
     moved[1] += 1.0;
+    if (std::fabs(off) > FARTHEST * edge) mine = 2;
   }
   MPI_Allreduce(&moved[0], &sums[0], 1, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(&moved[1], &sums[1], 1, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any == 2) migrating = true;
   if (comm->me == 0 && sums[1] > 0.0)
     utils::logmesg(lmp, "Fix hd/bind {}: {:.0f} atoms bound, moved by {:.3g} at most\n", id, sums[1], sums[0]);
 }

@@ -42,9 +42,10 @@ FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "Fix hd/brownian temperature {} must not be negative", arg[3]);
   if (seed <= 0) error->all(FLERR, "Fix hd/brownian seed {} must be positive", arg[4]);
 
+  bool measure_asked = false;
   int iarg = 5;
   while (iarg < narg) {
-    if (const int used = mass.parse(iarg, narg, arg)) {
+    if (const int used = mass.parse(iarg, narg, arg, true)) {
       iarg += used;
     } else if (strcmp(arg[iarg], "gamma_t") == 0) {
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/brownian gamma_t", error);
@@ -54,18 +55,26 @@ FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
       iarg += 2;
     } else if (strcmp(arg[iarg], "measure") == 0) {
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/brownian measure", error);
-      with_measure = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      with_measure = measure_asked = utils::logical(FLERR, arg[iarg + 1], false, lmp);
       if (with_measure && temperature == 0.0)
         error->all(FLERR, "Fix hd/brownian measure yes needs a temperature: there is no measure at 0, "
                           "leave it out");
       iarg += 2;
     } else
       error->all(FLERR,
-                 "Unknown fix hd/brownian keyword {}; known are: gamma_t, mass, solver, tol, measure",
+                 "Unknown fix hd/brownian keyword {}; known are: gamma_t, mass, solver, tol, measure, "
+                 "modes, relax",
                  arg[iarg]);
   }
+  const bool own_friction = modes() && modes()->has_friction();
+  if (own_friction && gamma_t > 0.0)
+    error->all(FLERR, "Fix hd/brownian relax has the friction of each mode: leave gamma_t out");
+  if (modes() && measure_asked)
+    error->all(FLERR, "Fix hd/brownian measure yes is that of control points that move freely: leave it out with "
+                      "modes");
+  if (modes()) with_measure = false;
   set_measure();
-  if (gamma_t == 0.0 && sampling()) gamma_t = 1.0;
+  if (gamma_t == 0.0 && (sampling() || own_friction)) gamma_t = 1.0;
   if (gamma_t == 0.0)
     error->all(FLERR, "Fix hd/brownian needs gamma_t, the drag coefficient of a vertex");
   mass.set_drag(gamma_t);

@@ -42,17 +42,19 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
 
   t_start = utils::numeric(FLERR, arg[3], false, lmp);
   t_stop = utils::numeric(FLERR, arg[4], false, lmp);
-  damp = utils::numeric(FLERR, arg[5], false, lmp);
+  const bool no_damp = strcmp(arg[5], "NULL") == 0;
+  damp = no_damp ? 0.0 : utils::numeric(FLERR, arg[5], false, lmp);
   seed = utils::bnumeric(FLERR, arg[6], false, lmp);
   if (t_start < 0.0 || t_stop < 0.0)
     error->all(FLERR, "Fix hd/langevin temperatures {} and {} must not be negative", arg[3],
                arg[4]);
-  if (damp <= 0.0) error->all(FLERR, "Fix hd/langevin damping time {} must be positive", arg[5]);
+  if (!no_damp && damp <= 0.0) error->all(FLERR, "Fix hd/langevin damping time {} must be positive", arg[5]);
   if (seed <= 0) error->all(FLERR, "Fix hd/langevin seed {} must be positive", arg[6]);
 
+  bool measure_asked = false;
   int iarg = 7;
   while (iarg < narg) {
-    if (const int used = mass.parse(iarg, narg, arg)) {
+    if (const int used = mass.parse(iarg, narg, arg, true)) {
       iarg += used;
     } else if (strcmp(arg[iarg], "scale") == 0) {
       if (iarg + 3 > narg) utils::missing_cmd_args(FLERR, "fix hd/langevin scale", error);
@@ -70,7 +72,7 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
       iarg += 2;
     } else if (strcmp(arg[iarg], "measure") == 0) {
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/langevin measure", error);
-      with_measure = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+      with_measure = measure_asked = utils::logical(FLERR, arg[iarg + 1], false, lmp);
       if (with_measure && t_start == 0.0 && t_stop == 0.0)
         error->all(FLERR, "Fix hd/langevin measure yes needs a temperature: there is no measure at 0, "
                           "leave it out");
@@ -78,9 +80,17 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
     } else
       error->all(FLERR,
                  "Unknown fix hd/langevin keyword {}; known are: mass, solver, tol, scale, tally, "
-                 "measure",
+                 "measure, modes, relax",
                  arg[iarg]);
   }
+  if (no_damp != (modes() && modes()->has_friction()))
+    error->all(FLERR, no_damp ? "Fix hd/langevin damping time NULL: without relax it must be a number"
+                              : "Fix hd/langevin relax has the friction of each mode: say NULL for the damping time");
+  if (modes() && scaled) error->all(FLERR, "Fix hd/langevin scale is friction of points: use relax with modes");
+  if (modes() && measure_asked)
+    error->all(FLERR, "Fix hd/langevin measure yes is that of control points that move freely: leave it out with "
+                      "modes");
+  if (modes()) with_measure = false;
   measure.on = with_measure && (t_start > 0.0 || t_stop > 0.0);
   measure.tally = tally;
 }
@@ -169,6 +179,8 @@ void FixHDLangevin::thermalize()
     for (int i = 0; i < part.owned; ++i)
       keep[i] = std::exp(-dt / (damp * ratio[atom->type[part.atom_of(i)]]));
     relax(keep, kT_mass, seed);
+  } else if (mass.matrix().has_own_friction()) {
+    relax_modes(dt, kT_mass, seed);
   } else
     relax(std::exp(-dt / damp), kT_mass, seed);
   if (tally) energy += before - kinetic();

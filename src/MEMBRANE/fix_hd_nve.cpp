@@ -35,7 +35,7 @@ FixHDNVE::FixHDNVE(LAMMPS *lmp, int narg, char **arg) :
   dynamic_group_allow = 0;
   int iarg = 3;
   while (iarg < narg) {
-    if (const int used = mass.parse(iarg, narg, arg)) {
+    if (const int used = mass.parse(iarg, narg, arg, true)) {
       iarg += used;
     } else if (strcmp(arg[iarg], "measure") == 0) {
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix hd/nve measure", error);
@@ -49,9 +49,13 @@ FixHDNVE::FixHDNVE(LAMMPS *lmp, int narg, char **arg) :
       measure.kT = force->boltz * temperature;
       iarg += 2;
     } else
-      error->all(FLERR, "Unknown fix hd/nve keyword {}; known are: mass, solver, tol, measure",
+      error->all(FLERR, "Unknown fix hd/nve keyword {}; known are: mass, solver, tol, measure, modes",
                  arg[iarg]);
   }
+  if (modes() && modes()->has_friction())
+    error->all(FLERR, "Fix hd/nve has no friction: leave relax out, or use fix hd/langevin or hd/brownian");
+  if (modes() && measure.on)
+    error->all(FLERR, "Fix hd/nve measure is that of control points that move freely: leave it out with modes");
   if (sampling())
     error->all(FLERR, "Fix hd/nve mass sampling: its motion means nothing without a thermostat; use fix "
                       "hd/langevin, or another mass");

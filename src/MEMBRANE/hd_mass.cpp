@@ -23,6 +23,7 @@
 #include "error.h"
 #include "force.h"
 #include "group.h"
+#include "hd_mode_space.h"
 #include "helfrich_model.h"
 #include "membrane_mass_kinds.h"
 #include "pair.h"
@@ -48,9 +49,11 @@ HDMass::HDMass(LAMMPS *lmp, int igroup, std::string user) :
 {
 }
 
-int HDMass::parse(int iarg, int narg, char **arg)
+int HDMass::parse(int iarg, int narg, char **arg, bool integrates)
 {
   const std::string key = arg[iarg];
+  if (integrates)
+    if (const int used = HDModeSpace(lmp, user).parse(iarg, narg, arg, settings)) return used;
   if (key != "mass" && key != "solver" && key != "tol") return 0;
   if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, user + " " + key, error);
   const std::string value = arg[iarg + 1];
@@ -79,7 +82,9 @@ void HDMass::init(bool other_atoms)
   if (settings.direct && (settings.kind == MassKind::LUMPED || settings.kind == MassKind::SAMPLING))
     error->all(FLERR, "{} solver direct: mass {} needs no solver", user,
                Membrane_NS::mass_kind_name(settings.kind));
+  HDModeSpace(lmp, user).check(settings);
   points.init(other_atoms);
+  gram.resize(0, 0);
   if (drag == 0.0) check_masses();
   reported = false;
 }
@@ -110,9 +115,13 @@ void HDMass::refresh()
       utils::logmesg(lmp, "{} mass sampling: control points have changed, the reference is taken anew\n", user);
     if (!same) take_reference();    // the first time, and after replicate, delete_atoms, reset_atoms
   }
-  if (!renumbered && !(reference && reference->renewals != renewals)) return;
+  auto *modes = settings.modes.get();
+  if (modes && (renumbered || !modes->now)) HDModeSpace(lmp, user).follow(mesh(), part(), *modes);
+  const int64_t now = reference ? reference->renewals : modes ? modes->renewals : renewals;
+  if (!renumbered && now == renewals) return;
   ++numberings;
-  if (reference) renewals = reference->renewals;
+  if (now != renewals) gram.resize(0, 0);
+  renewals = now;
   settings.unit = (drag > 0.0 ? drag : 1.0) / force->mvv2e;    // of time is 1
 
   const int n = mesh().topology().num_vertices();
@@ -123,10 +132,26 @@ void HDMass::refresh()
   part().sum(masses.data(), n);
   for (int v = 0; v < n; ++v) labels[v] = mesh().tag(v);
   try {
-    mass = Membrane_NS::make_mass({mesh().topology(), part(), masses, labels}, settings);
+    const Membrane_NS::VertexMasses vertices = {mesh().topology(), part(), masses, labels};
+    mass = Membrane_NS::make_mass(vertices, settings);
+    if (!modes) return;
+    mass = std::make_unique<Membrane_NS::ModalMass>(vertices, std::move(mass), *modes, drag > 0.0, gram);
+    gram = modal()->gram();
   } catch (const Membrane_NS::MeshError &err) {
     error->all(FLERR, "{}: {}", user, err.what());
   }
+}
+
+void HDMass::take_modes_anew()
+{
+  settings.modes->shape.points.clear();
+  settings.modes->now.reset();
+  refresh();
+}
+
+Membrane_NS::ModalMass *HDMass::modal() const
+{
+  return dynamic_cast<Membrane_NS::ModalMass *>(mass.get());
 }
 
 /* ----------------------------------------------------------------------
@@ -182,6 +207,15 @@ static void archive_points(RestartArchive &file, std::vector<Eigen::Vector3d> &p
 }
 
 void HDMass::archive(RestartArchive &file)
+{
+  archive_reference(file);
+  char modal = settings.modes && !settings.modes->shape.points.empty();
+  file(modal);
+  Membrane_NS::SharedModes none;
+  if (modal) HDModeSpace::archive(file, settings.modes ? *settings.modes : none);
+}
+
+void HDMass::archive_reference(RestartArchive &file)
 {
   char known = settings.reference && settings.reference->now;
   file(known);

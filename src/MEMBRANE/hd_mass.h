@@ -14,7 +14,7 @@
 #ifndef LMP_HD_MASS_H
 #define LMP_HD_MASS_H
 
-#include "membrane_mass.h"
+#include "membrane_mass_modes.h"
 #include "mesh_group.h"
 #include "restart_archive.h"
 
@@ -34,8 +34,8 @@ class HDMass : protected Pointers {
   // === Settings, before init()
 
   Membrane_NS::MassOperator::Settings settings;
-  /// One of the keywords mass, solver, tol: how many words it took; 0 if it is another keyword.
-  int parse(int iarg, int narg, char **arg);
+  /// One of the keywords mass, solver, tol and, for integrators, modes, relax: how many words it took; 0 if it is another keyword.
+  int parse(int iarg, int narg, char **arg, bool integrates = false);
   /// Use this number for all vertices instead of the atoms' masses: a matrix of drag coefficients.
   void set_drag(double coefficient) { drag = coefficient; }
   /// That number, or 0 for masses.
@@ -59,6 +59,10 @@ class HDMass : protected Pointers {
   DistributedMesh &mesh() { return points.mesh(); }
   MeshPart &part() { return points.part(); }
   Membrane_NS::MassOperator &matrix() { return *mass; }
+  /// Collective: modes about the shape that the mesh has had in the last init().
+  void take_modes_anew();
+  /// The same as matrix(), if modes are all the motion there is, or nullptr.
+  Membrane_NS::ModalMass *modal() const;
   /// Differs after a refresh() that made the matrix anew.
   bigint numbering() const { return numberings; }
   /// Counts the references of mass sampling: velocities of one are not those of another.
@@ -79,10 +83,12 @@ class HDMass : protected Pointers {
   double drag;
   bool reported;    // a missed tolerance, in this run
   bigint numberings;
-  int64_t renewals;    // of the reference that the matrix is for
+  int64_t renewals;    // of the reference or the modes that the matrix is for
+  Eigen::MatrixXd gram;    // of these modes; masses are those of init()
 
   void check_masses();
   void take_reference();
+  void archive_reference(RestartArchive &);
 };
 
 }    // namespace LAMMPS_NS

@@ -18,6 +18,7 @@
 #include "hd_timestep.h"
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -382,13 +383,10 @@ double HDTimestep::energy_error(HDMass &mass, StiffnessProbe &probe, double dt, 
         atom->v[part.atom_of(i)][k] += 0.5 * dt * force->ftm2v * a[i].c[k];
   };
 
-  // neighbor lists are not renewed: stop before other atoms have gone so far that they must be
-
-  const bool other_atoms = atom->natoms > mass.mesh().topology().num_vertices();
   const double start = probe.evaluate(true) + kinetic();
   double moving = 0.0, first = 0.0, second = 0.0;    // sums of kinetic and change of energy
   int step = 0;
-  for (bool near = true; near && step < nsteps; ++step) {
+  for (; step < nsteps; ++step) {
     kick();
     for (int i = 0; i < part.owned; ++i)
       for (int k = 0; k < 3; ++k) atom->x[part.atom_of(i)][k] += dt * atom->v[part.atom_of(i)][k];
@@ -398,9 +396,30 @@ double HDTimestep::energy_error(HDMass &mass, StiffnessProbe &probe, double dt, 
     moving += ke;
     first += change;
     second += change * change;
-    near = !(other_atoms && neighbor->dist_check && neighbor->check_distance());
+    if (!has_other_atoms(mass) || !neighbor->dist_check || !neighbor->check_distance()) continue;
+    renew_lists(mass);
+    a.resize(part.size());
   }
   return std::sqrt(std::max(0.0, second / step - first * first / (step * step))) * step / moving;
+}
+
+// ghosts and neighbor lists, while owned atoms keep their indices
+
+void HDTimestep::renew_lists(HDMass &mass) const
+{
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
+  comm->borders();
+  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
+  neighbor->build(1);
+  mass.refresh();
+}
+
+bool HDTimestep::has_other_atoms(HDMass &mass) const
+{
+  return atom->natoms > mass.mesh().topology().num_vertices();
 }
 
 std::vector<HDTimestep::Trial> HDTimestep::run_trials(HDMass &mass, StiffnessProbe &probe,
@@ -409,12 +428,13 @@ std::vector<HDTimestep::Trial> HDTimestep::run_trials(HDMass &mass, StiffnessPro
   std::vector<std::array<double, 3>> v_before(atom->nlocal);
   auto put_back = [&] {
     for (int i = 0; i < atom->nlocal; ++i) std::copy_n(v_before[i].data(), 3, atom->v[i]);
+    probe.restore();
+    if (has_other_atoms(mass)) renew_lists(mass);
   };
   for (int i = 0; i < atom->nlocal; ++i) std::copy_n(atom->v[i], 3, v_before[i].data());
 
   std::vector<Trial> trials;
   for (int fraction : FRACTIONS) {
-    probe.restore();
     put_back();
     if (start_moving(mass, limit) && trials.empty())
       print("  (the membrane is at rest: trial runs start with small random velocities)\n");

@@ -49,6 +49,8 @@ class HDTimestep : public Command {
   Membrane_NS::VertexField mode_shape(HDMass &) const;
   bool start_moving(HDMass &, double limit) const;
   double energy_error(HDMass &, class StiffnessProbe &, double dt, int nsteps) const;
+  bool has_other_atoms(HDMass &) const;
+  void renew_lists(HDMass &) const;
   std::vector<Trial> run_trials(HDMass &, StiffnessProbe &, double limit) const;
   double largest_of_springs(bool overdamped) const;
   void print(const std::string &) const;

@@ -64,7 +64,7 @@ void HDVelocity::command(int narg, char **arg)
   const double kT = force->boltz * temperature / force->mvv2e;
   VertexField v(mass.part().size());
   mass.matrix().sample(kT, seed, NO_TIMESTEP, v);
-  const double dof = 3.0 * mass.count() - remove_rigid_motion(mass, v);
+  const double dof = mass.modal() ? mass.modal()->count() : 3.0 * mass.count() - remove_rigid_motion(mass, v);
 
   if (scale && kT > 0.0) {
     const auto t = mass.matrix().kinetic(v);

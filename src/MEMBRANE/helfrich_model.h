@@ -106,7 +106,8 @@ class HelfrichModel : protected Pointers {
   void measure(const Wanted &);
   void act();
   void share_volume_recoil(double (*f)[3]);
-  std::vector<Eigen::Vector3d> gradient(int m, double Conjugates::*of);
+  std::vector<Eigen::Vector3d> gradient(int m, double Conjugates::*of,
+                                        const std::vector<Eigen::Vector3d> &moved);
   void collect(double points);
   double bending_energy(Membrane_NS::PatchRules &);
 };

@@ -30,11 +30,12 @@ using Membrane_NS::FaceModel;
 using Membrane_NS::StiffnessReference;
 
 /* ----------------------------------------------------------------------
-   of an area, volume or integral of 2H of membrane m by the control points, exact for the quadrature:
-   the forces of a model that has nothing but this conjugate
+   of an area, volume or integral of 2H of membrane m by the control points when these have moved, exact
+   for the quadrature: the forces of a model that has nothing but this conjugate
 ------------------------------------------------------------------------- */
 
-std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of)
+std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of,
+                                               const std::vector<Vector3d> &moved)
 {
   Conjugates unit;
   unit.*of = 1.0;
@@ -53,8 +54,12 @@ std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of)
     }
 
   const int nall = atom->nlocal + atom->nghost;
-  std::vector<double> force(3 * (size_t) nall, 0.0);
-  const auto x = nall ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
+  std::vector<double> force(3 * (size_t) nall, 0.0), place(force.size(), 0.0);
+  for (int i = 0; i < nall; ++i) {
+    const int v = scene.mesh->vertex(atom->tag[i]);
+    for (int k = 0; v >= 0 && k < 3; ++k) place[3 * (size_t) i + k] = atom->x[i][k] + moved[v][k];
+  }
+  const auto x = nall ? reinterpret_cast<const double(*)[3]>(place.data()) : nullptr;
   const auto f = nall ? reinterpret_cast<double(*)[3]>(force.data()) : nullptr;
   const bool volume = unit.pressure != 0.0;
   Membrane_NS::FaceEnergies none;
@@ -106,12 +111,15 @@ StiffnessReference HelfrichModel::describe()
     mine[4 * (size_t) v + 3] = kc[atom->type[i]];
   }
   MPI_Allreduce(mine.data(), all.data(), 4 * n, MPI_DOUBLE, MPI_SUM, world);
-  reference.shape = scene.mesh->triangle_mesh();
+  Membrane_NS::TriangleMesh shape = scene.mesh->triangle_mesh();
   reference.kc.resize(n);
   for (int v = 0; v < n; ++v) {
-    reference.shape.points[v] = Vector3d(&all[4 * (size_t) v]);
+    shape.points[v] = Vector3d(&all[4 * (size_t) v]);
     reference.kc[v] = all[4 * (size_t) v + 3];
   }
+  reference.shape = long_waves(shape, topology);
+  std::vector<Vector3d> moved(n);
+  for (int v = 0; v < n; ++v) moved[v] = reference.shape.points[v] - shape.points[v];
 
   // faces: tension of the energy, and of c0, which undulations of a sphere feel as one of
   // kc (c0^2/2 - 2H c0)
@@ -143,6 +151,6 @@ StiffnessReference HelfrichModel::describe()
   for (size_t m = 0; m < found.totals.size(); ++m)
     for (auto of : {&Conjugates::tension, &Conjugates::pressure, &Conjugates::moment})
       if (found.totals[m].*of > 0.0)
-        reference.totals.push_back({found.totals[m].*of, gradient(static_cast<int>(m), of)});
+        reference.totals.push_back({found.totals[m].*of, gradient(static_cast<int>(m), of, moved)});
   return reference;
 }

@@ -17,8 +17,7 @@
 #include "membrane_limit_surface.h"
 #include "membrane_quadrature.h"
 
-#include <cstdint>
-#include <map>
+#include <memory>
 #include <vector>
 
 namespace Membrane_NS {
@@ -100,6 +99,7 @@ class Footprints {
   Footprints(const LimitSurface &surface, Quadrature quadrature);
   /// The points of the energy's own rules. These must outlive this, too.
   Footprints(const LimitSurface &surface, PatchRules &graded);
+  ~Footprints();
 
   /// Call when the surface or its box has moved. Forgets forces that were not taken.
   void update();
@@ -125,67 +125,25 @@ class Footprints {
   double memory_usage() const;
 
  private:
-  // a symmetric 3x3 matrix
-  struct Symmetric {
-    double xx, yy, zz, xy, xz, yz;
-    Eigen::Vector3d operator*(const Eigen::Vector3d &v) const
-    {
-      return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2],
-              xz * v[0] + yz * v[1] + zz * v[2]};
-    }
-    void add(double factor, const Eigen::Vector3d &v);    // factor v v^T
-  };
-  // a point of a rule: what the surface does there, and derivatives of the energy by that
-  struct Point {
-    Point() {}             // leaves numbers alone
-    double area = -1.0;    // A_k; negative: only the position is known
-    double curvature;      // 2H
-    double by_area, by_curvature;
-    Eigen::Vector3d by_position;
-    Eigen::Vector3d normal, by_normal;    // from here on for directors
-    Symmetric tensor, by_tensor;
-    void forget();
-  };
-  // a face: its rule, where its points begin, a sphere around it
-  struct Patch {
-    const PatchRule *rule = nullptr;
-    std::int64_t epoch = 0, visit = 0;
-    int first = 0;
-    bool touched = false;
-    Eigen::Vector3d center;
-    double radius;
-  };
-  // a point within rho of the particle
-  struct Near {
-    int point;
-    Eigen::Vector3d away;    // r - x
-    double weight, slope;    // W, and dW/dr = slope (r - x)
-  };
   struct Sums {
     double area = 0.0, curvature = 0.0;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
   const LimitSurface &surface_;
-  PatchRules *graded_ = nullptr;
-  TriangleRule triangle_;    // if there are no graded rules
-  std::map<Valences, PatchRule> plain_;
-  std::int64_t epoch_ = 1, visit_ = 0;    // of the surface; of particles
-  double half_width_;                     // of the box
-  std::vector<Patch> patches_;            // [faces]
-  std::vector<Lane4> position_;           // of points
-  std::vector<Point> points_;
+  std::unique_ptr<class FootprintPoints> points_;
+  int visit_ = 0;                       // of particles
+  std::vector<int> visited_;            // [faces] by which of them last
+  double half_width_;                   // of the box
   std::vector<int> queue_, reached_;    // faces of a particle: looked at, with points in reach
   std::vector<int> touched_;            // faces with forces to be taken
-  std::vector<Near> near_;
+  std::vector<struct NearBlock> near_;
   Eigen::Matrix3d virial_;
   Lane4 force_[MOST_STENCIL];    // on the control points of a face
 
+  Footprints(const LimitSurface &surface, std::unique_ptr<class FootprintPoints> points);
   Sums look(const Eigen::Vector3d &x, const SurfacePoint &foot, double radius, bool directed);
-  Footprints(const LimitSurface &surface);
-  const PatchRule &rule(const Valences &valences);
-  Patch &place(int face);
-  bool look_at_points(const Patch &patch, int face, const Eigen::Vector3d &from, double radius);
+  bool look_at_points(int face, const Eigen::Vector3d &from, double radius, bool directed);
   void pull_face(int face);
 };
 

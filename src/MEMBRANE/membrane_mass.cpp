@@ -57,6 +57,11 @@ void MassOperator::relax(const std::vector<double> &, double, uint64_t, uint64_t
   throw std::logic_error("this mass has no friction per vertex");
 }
 
+void MassOperator::relax_own(double, double, uint64_t, uint64_t, VertexField &)
+{
+  throw std::logic_error("this mass has no friction of its own");
+}
+
 /* ---------------------------------------------------------------------- */
 
 double MassOperator::residual(const VertexField &p, const VertexField &v)

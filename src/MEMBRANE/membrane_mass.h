@@ -35,6 +35,7 @@ enum class MassKind {
 };
 
 struct SharedReference;
+struct SharedModes;
 
 /// What a mass matrix is made of: the vertices of a rank, with numbers for all of the topology.
 struct VertexMasses {
@@ -59,6 +60,7 @@ class MassOperator {
     int most_passes = 1000;        ///< of conjugate gradients, which need some 30 to 200
     std::shared_ptr<SharedReference> reference;    ///< SAMPLING only
     double unit = 1.0;             ///< likewise: mass over stiffness, the square of the unit of time
+    std::shared_ptr<SharedModes> modes;    ///< that are all the motion there is, if any
   };
 
   virtual ~MassOperator() = default;
@@ -86,6 +88,10 @@ class MassOperator {
   /// If so: the same with one number per owned vertex, for the momenta of these masses.
   virtual void relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
                      VertexField &v);
+  /// Whether its motions have friction of their own, other than in proportion to their mass.
+  virtual bool has_own_friction() const { return false; }
+  /// If so: an exact step of this friction and its noise.
+  virtual void relax_own(double time, double kT, uint64_t seed, uint64_t step, VertexField &v);
 
   // === Motions that there are not
 

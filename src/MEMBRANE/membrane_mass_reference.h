@@ -25,7 +25,7 @@ namespace Membrane_NS {
 /** What membranes resist around a shape that they have: the second derivatives of their energy, in
     outline. Mass for sampling is made of it. Any consistent units. */
 struct StiffnessReference {
-  TriangleMesh shape;              ///< of the control points, each component in one piece
+  TriangleMesh shape;              ///< smooth, of the control points, each component in one piece
   std::vector<double> kc;          ///< [vertices] energy
   std::vector<double> tension;     ///< [faces] energy/area: what undulations feel, of any sign
   std::vector<double> shear;       ///< [faces] energy: modulus of regularize
@@ -43,6 +43,10 @@ struct StiffnessReference {
       now, mean over the vertices; 0 for the same shape, 1 for none of it. */
   double distance(const TriangleMesh &now, const Topology &topology) const;
 };
+
+/** A shape without its short waves, those of less than some ten edges, which are noise in a membrane in
+    thermal motion. Components stay where they are, in one piece and as large. */
+TriangleMesh long_waves(const TriangleMesh &shape, const Topology &topology);
 
 /// A reference that several masses share: who integrates renews it, all others follow.
 struct SharedReference {

@@ -45,22 +45,6 @@ static constexpr double LEAST[] = {-2.2, -0.8};    // > -2 sqrt(t)
 
 static constexpr double SHEAR_FACTOR = 2.0, SHEAR_FLOOR = 1.0;
 
-// of conjugate gradients with M^-1, and when they have got nowhere
-
-static constexpr double TOLERANCE = 1.0e-10;
-static constexpr int MOST_PASSES = 200;
-
-/* ---------------------------------------------------------------------- */
-
-double StiffnessReference::distance(const TriangleMesh &now, const Topology &topology) const
-{
-  const FlatAreas before(shape, topology), after(now, topology);
-  double sum = 0.0;
-  for (int v = 0; v < topology.num_vertices(); ++v)
-    sum += 1.0 - before.normals[v].dot(after.normals[v]);
-  return sum / topology.num_vertices();
-}
-
 /* ---------------------------------------------------------------------- */
 
 SamplingMass::SamplingMass(const VertexMasses &vertices, const Settings &settings) :
@@ -87,6 +71,8 @@ void SamplingMass::build_factors(const Topology &topology, const std::vector<dou
   const int n = topology.num_vertices();
   const FlatAreas areas(reference.shape, topology);
   normals_ = areas.normals;
+  for (Vector3d &normal : normals_)
+    if (normal.isZero()) normal = Vector3d::UnitZ();    // folded flat: any does
 
   // undulations
 
@@ -135,6 +121,10 @@ void SamplingMass::build_factors(const Topology &topology, const std::vector<dou
   sliding_ *= unit;
   normal_factor_ = std::make_unique<SparseCholesky>(undulation_);
   tangent_factor_ = std::make_unique<SparseCholesky>(sliding_);
+  SparseMatrix blocked = sliding_;
+  for (int v = 0; v < n; ++v)
+    for (SparseMatrix::InnerIterator at(blocked, v); at; ++at) at.valueRef() *= normals_[v].dot(normals_[at.row()]);
+  blocked_factor_ = std::make_unique<SparseCholesky>(blocked);
   find_turning(topology, areas.components);
 }
 
@@ -161,6 +151,9 @@ void SamplingMass::find_turning(const Topology &topology, const std::vector<doub
       arms_[v] = reference.shape.points[v] - middle / n;
       turning_of_[v] = static_cast<int>(turning_.size());
     }
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    for (int v : turning.vertices) square += normals_[v] * normals_[v].transpose();
+    turning.inverse_square = square.inverse();
     const double a = 4.0 * M_PI / areas[c];
     turning.mobility = settings_.unit / (4.0 * M_PI * a * kc / n);
     turning_.push_back(std::move(turning));
@@ -198,6 +191,7 @@ void SamplingMass::build_totals(const Topology &topology)
     for (const Vector3d &g : totals[i].gradient) square += g.squaredNorm();
     softness[i] /= square;
   }
+  stiffness_ = softness.head(totals.size()).cwiseInverse();
 
   y_.resize(3 * n, rank);
   for (j = 0; j < rank; ++j) {
@@ -314,54 +308,47 @@ void SamplingMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &
 }
 
 /* ----------------------------------------------------------------------
-   conjugate gradients for M^-1 p = v, with N B N^T + (1 - N N^T) T (1 - N N^T), which is nearly M, before
-   it. M^-1 has no turning, so p has as much of that as it happens to have: v.p does not see it
+   P T^-1 P with P = 1 - N N^T is the inverse of T - T N (N^T T N)^-1 N^T T along the surface. Translations
+   are what velocities have of degree 1 along normals; whatever of that kind momenta may have does not
+   change velocities otherwise, so it is there to give them their sum
 ------------------------------------------------------------------------- */
-
-SamplingMass::Vectors SamplingMass::times_base(const Vectors &x) const
-{
-  const Eigen::Index n = x.rows();
-  const Map<const Vectors> normals(normals_[0].data(), n, 3);
-  const VectorXd along = x.cwiseProduct(normals).rowwise().sum();
-  const VectorXd pushed = undulation_ * along;
-  Vectors y = sliding_ * Vectors(x - (normals.array().colwise() * along.array()).matrix());
-  const VectorXd change = pushed - y.cwiseProduct(normals).rowwise().sum();
-  y.array() += normals.array().colwise() * change.array();
-  return y;
-}
 
 void SamplingMass::multiply(const VertexField &v, VertexField &p)
 {
   part_.gather(v, all_);
-  const auto n = static_cast<Eigen::Index>(all_.size());
-  Vectors r(n, 3), q(n, 3), sum = Vectors::Zero(n, 3);
-  const auto load = [&](Vectors &to) {
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (int k = 0; k < 3; ++k) to(i, k) = all_[i].c[k];
-  };
-  const auto store = [&](const Vectors &from) {
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (int k = 0; k < 3; ++k) all_[i].c[k] = from(i, k);
-  };
-  load(r);
-  Vectors z = times_base(r), d = z;
-  double rz = r.cwiseProduct(z).sum();
-  const double enough = TOLERANCE * TOLERANCE * rz;
-  for (passes_ = 0; passes_ < MOST_PASSES && rz > enough; ++passes_) {
-    store(d);
-    solve_all(all_);
-    load(q);
-    const double dq = d.cwiseProduct(q).sum();
-    if (!(dq > 0.0)) break;    // no more than rounding is left
-    const double alpha = rz / dq;
-    sum += alpha * d;
-    r -= alpha * q;
-    z = times_base(r);
-    const double next = r.cwiseProduct(z).sum();
-    d = z + next / rz * d;
-    rz = next;
+  const auto n = static_cast<int>(all_.size());
+  std::vector<Vector3d> speed(turning_.size(), Vector3d::Zero());
+  for (size_t t = 0; t < turning_.size(); ++t) {
+    for (int i : turning_[t].vertices) speed[t] += normals_[i] * normals_[i].dot(Map<Vector3d>(all_[i].c));
+    speed[t] = turning_[t].inverse_square * speed[t];
+    for (int i : turning_[t].vertices) Map<Vector3d>(all_[i].c) -= speed[t];
   }
-  store(sum);
+  VectorXd totals = VectorXd::Zero(u_.cols());
+  if (stiffness_.size()) totals.head(stiffness_.size()) = stiffness_.cwiseProduct(products(u_, all_).head(stiffness_.size()));
+
+  Vectors along(n, 3), across(n, 3);
+  VectorXd out(n);
+  for (int i = 0; i < n; ++i) {
+    const Map<const Vector3d> here(all_[i].c);
+    out[i] = normals_[i].dot(here);
+    along.row(i) = here - out[i] * normals_[i];
+  }
+  out = undulation_ * out;
+  along = sliding_ * along;
+  for (int i = 0; i < n; ++i) along_[i] = normals_[i].dot(along.row(i));
+  blocked_factor_->solve(along_);
+  for (int i = 0; i < n; ++i) across.row(i) = along_[i] * normals_[i];
+  along -= sliding_ * across;
+  for (int i = 0; i < n; ++i)
+    Map<Vector3d>(all_[i].c) = along.row(i).transpose() + out[i] * normals_[i];
+  if (stiffness_.size()) subtract(u_, -totals, all_);
+
+  for (size_t t = 0; t < turning_.size(); ++t) {
+    Vector3d missing = speed[t] / turning_[t].mobility;
+    for (int i : turning_[t].vertices) missing -= Map<Vector3d>(all_[i].c);
+    missing = turning_[t].inverse_square * missing;
+    for (int i : turning_[t].vertices) Map<Vector3d>(all_[i].c) += normals_[i] * normals_[i].dot(missing);
+  }
   scatter(all_, p);
 }
 
@@ -397,6 +384,6 @@ void SamplingMass::add_gauge_forces(double kT, const VertexField &x, VertexField
 double SamplingMass::memory_usage() const
 {
   return MassOperator::memory_usage() + normal_factor_->memory_usage() +
-      tangent_factor_->memory_usage() + 12.0 * (undulation_.nonZeros() + sliding_.nonZeros()) +
+      tangent_factor_->memory_usage() + blocked_factor_->memory_usage() + 12.0 * (undulation_.nonZeros() + sliding_.nonZeros()) +
       sizeof(double) * (u_.size() + y_.size());
 }

@@ -40,7 +40,6 @@ class SamplingMass : public MassOperator {
   /// settings.reference is there, for this topology. MeshError if it does not resist enough.
   SamplingMass(const VertexMasses &, const Settings &);
 
-  /// By conjugate gradients with M^-1: for temperatures, not for each step.
   void multiply(const VertexField &v, VertexField &p) override;
   void solve(const VertexField &p, VertexField &v) override;
   void sample(double kT, uint64_t seed, uint64_t step, VertexField &v) override;
@@ -54,15 +53,17 @@ class SamplingMass : public MassOperator {
   const std::vector<uint64_t> labels_;
   std::vector<Eigen::Vector3d> normals_;
   Eigen::SparseMatrix<double> undulation_, sliding_;               // B and T
-  std::unique_ptr<SparseCholesky> normal_factor_, tangent_factor_;
+  std::unique_ptr<SparseCholesky> normal_factor_, tangent_factor_, blocked_factor_;    // B, T, N^T T N
 
-  // 3n x r, 3n x r, r x r, r x r: see the derivation
+  // 3n x r, 3n x r, r x r, r x r: see the derivation; and W'' of the first columns, which are totals
 
   Eigen::MatrixXd u_, y_, w_, c_;
+  Eigen::VectorXd stiffness_;
 
   struct Turning {    // a closed component, which does not turn
     std::vector<int> vertices;
     double mobility;    // 1/m of its translations
+    Eigen::Matrix3d inverse_square;    // of the sum of n n^T
   };
   std::vector<Turning> turning_;
   std::vector<int> turning_of_;          // by vertex, or -1
@@ -75,7 +76,6 @@ class SamplingMass : public MassOperator {
   void find_turning(const Topology &, const std::vector<double> &areas);
   void solve_base(VertexField &x);
   void solve_all(VertexField &x);
-  Vectors times_base(const Vectors &x) const;
   void scatter(const VertexField &all, VertexField &x) const;
 };
 

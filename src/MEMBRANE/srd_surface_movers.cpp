@@ -84,6 +84,11 @@ void SurfaceMovers::find_integrators()
     if (integrator->mass_settings().kind != MassKind::VERTEX)
       error->all(FLERR, "{} needs point masses on the surface: use mass vertex in fix {} ({})",
                  user, fix->id, fix->style);
+    if (integrator->modes())
+      error->all(FLERR,
+                 "{}: fix {} ({}) moves modes, and an impulse of solvent at a point would move all of them: move all "
+                 "control points, or have relax eta in place of solvent",
+                 user, fix->id, fix->style);
     integrator->remember_displacement();
     integrators.push_back(integrator);
   }

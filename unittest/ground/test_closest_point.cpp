@@ -82,7 +82,7 @@ TEST(ClosestPoint, APlaceOffTheSurfaceAlongTheNormalHasItsFootWhereItCameFrom)
 {
   double worst_foot = 0.0, worst_distance = 0.0, worst_residual = 0.0;
   long lost = 0, evaluations = 0, count = 0, elsewhere = 0;
-  const int places = how_many(100000, 1000000);
+  const int places = how_many(SANITIZED ? 20000 : 100000, 1000000);
   const auto meshes = smooth_meshes();
   for (const TriangleMesh &mesh : meshes) {
     const Search scene(mesh);

@@ -98,6 +98,25 @@ virial = row["c_V"] * 3 * row["Volume"]
 claim("the virial is minus the derivative of the energy by strain", abs(virial + (pe[1] - pe[-1]) / (2 * e)) < 1e-6 * abs(virial),
       f"{virial:.9g} {-(pe[1] - pe[-1]) / (2 * e):.9g}")
 
+# === Virials of atoms: each particle has that of its footprint and spring, which changes nothing else
+
+PER_ATOM = script(every=1) + """
+compute         V all pressure NULL fix
+{}
+run             5
+"""
+of_atoms = """compute a all stress/atom NULL fix
+compute s all reduce sum c_a[1] c_a[2] c_a[3] c_a[4] c_a[5] c_a[6]
+compute m mem reduce sum c_a[1]
+thermo_style custom step pe etotal vol c_V[1] c_V[2] c_V[3] c_V[4] c_V[5] c_V[6] c_s[1] c_s[2] c_s[3] c_s[4] c_s[5] c_s[6] c_m
+thermo_modify norm no format float %.16g"""
+row = thermo(run(PER_ATOM.format(of_atoms), ranks=2))[-1]
+plain = thermo(run(PER_ATOM.format("thermo_style custom step pe etotal vol c_V[1] c_V[2] c_V[3]\nthermo_modify norm no format float %.16g"), ranks=2))[-1]
+off = max(abs(row[f"c_V[{k}]"] * row["Volume"] + row[f"c_s[{k}]"]) for k in range(1, 7))
+claim("virials of atoms sum to that of the pressure", off < 1e-9 * row["Volume"] and row["c_m"] == 0.0, f"{off:.1e} of {row['c_s[1]']:.4f}")
+claim("    and nothing else changes", abs(plain["TotEng"] - row["TotEng"]) < 1e-9 and abs(plain["c_V[1]"] - row["c_V[1]"]) < 1e-9,
+      f"{plain['TotEng'] - row['TotEng']:.1e}")
+
 # === Ranks and restart
 
 ends = {}

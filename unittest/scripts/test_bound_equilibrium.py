@@ -3,6 +3,7 @@
     MEMBRANE_LONG=1    ten times the particles
 """
 # cost: 60
+# timeout: 14400
 
 import math
 
@@ -84,7 +85,7 @@ for name, motion, dt, steps, seed in (
     create = f"create_atoms 2 random {N} 99 spot"
     region = "region spot sphere 1.2 0.2 0.0 0.15\n"
     text = SPREAD.format(create=region + create, motion=motion.format(seed=seed), dt=dt, steps=steps)
-    rows = thermo(run(text))
+    rows = thermo(run(text, timeout=7200))
     end = frames("x.dump")[-1]
     value, degrees = chi_square(placed, counts(end, nfaces))
     claim(f"{name}: atoms that start in one place come to be as uniform as those of create_bound, over faces",
@@ -108,7 +109,7 @@ group           mem type 1
 write_membrane  fine.off subdivide 3
 """
 text = SHAPE
-run(text)
+run(text, timeout=7200)
 from membrane_scenes import read_off
 xs, fs = read_off("fine.off")
 moment, area = [0.0] * 3, 0.0
@@ -172,7 +173,7 @@ for name, motion, dt, m, every in (
         ("brownian", f"fix b p hd/bind mem brownian 1.0 {D} 8", 0.005, 1.0, 600),
         ("Langevin", "fix 2 p nve\nfix 3 p langevin 1.0 1.0 0.02 5\nvelocity p create 1.0 77 loop all\n"
                      "fix b p hd/bind mem", 0.005, 0.2, 600)):
-    run(SPHERE.format(n=N, m=m, motion=motion, dt=dt, every=every, steps=10 * every))
+    run(SPHERE.format(n=N, m=m, motion=motion, dt=dt, every=every, steps=10 * every), timeout=7200)
     for l, (value, error) in decays(dt, every).items():
         claim(f"{name}: P_{l} decays at l(l+1)D/R^2, within 2 % and three errors", abs(value / D - 1) < 0.02 + 3 * error / D,
               f"D {value:.5f} +- {error:.5f}, {D}")

@@ -21,22 +21,29 @@ with open("m.pdb", "w") as file:
     file.writelines(lines)
 write_off("irregular.off", *bipyramid(9))
 
-# three vesicles, one for each integrator, of meshes with few regular faces; solvent meets the first two
+# three vesicles, one for each integrator, of meshes with few regular faces; solvent meets the first two, and particles
+# are bound to the first. One of modes
 ATOMS = """
 units           lj
 atom_style      membrane_cp
 region          box block -4.5 4.5 -3 3 -3 3
-create_box      2 box angle/types 1
+create_box      3 box angle/types 1
 create_membrane 1 sphere 1 1.2 center -3.0 0 0 mass 20
 create_membrane 1 sphere 1 1.2 center  0.0 0 0 mass 20
 create_membrane 1 file irregular.off refine 1 center 3.0 0 0 mass 20
+create_membrane 1 sphere 1 0.8 center -1.5 2.0 2.0 molecule 9 mass 20
 create_solvent  2 both 3.0 4711 mass 1.0
 group           solvent type 2
 group           nve molecule 1
 group           langevin molecule 2
 group           brownian molecule 3
+group           modes molecule 9
 group           points type 1
 group           walls union nve langevin
+create_bound    12 3 nve 4711 leaflet both height 0.05 mass 2.0
+group           bound type 3
+velocity        bound create 1.0 99 loop all
+group           breathing subtract all modes
 velocity        points create 1.0 88
 pair_style      helfrich
 """
@@ -46,23 +53,31 @@ FIXES = """
 fix             i1 nve hd/nve
 fix             i2 langevin hd/langevin 1.0 1.0 1.0 4711
 fix             i3 brownian hd/brownian 1.0 4711 gamma_t 50
-fix             b all hd/tension 2 1.0 4711 xyz pressure 0.1 step 1e-8 burn 0
+fix             i4 modes hd/langevin 1.0 1.0 NULL 4711 modes sphere min 0 max 3 relax eta 50
+fix             p bound nve
+fix             h bound hd/bind nve hold spring 2000 height 0.05 footprint 3 0.2 20.0 0.5 1.0
+fix             b breathing hd/tension 2 1.0 4711 xyz pressure 0.1 step 1e-8 burn 0
 fix             s solvent srd/mesh 2 walls 1.0 1.0 4711 shift yes 9127 collision {slip}
 """
 COMPUTES = """
 compute         hf all pair helfrich
 compute         t walls hd/temp
+compute         bt bound hd/temp
+compute         site bound hd/surface/atom h
+compute         density bound hd/density h
 compute         u nve hd/modes sphere 4
 compute         shape points membrane/shape
 compute         k points membrane/curvature/atom
 compute         x all property/atom xu yu zu
 variable        place atom (c_x[1]+1.7*c_x[2]+2.3*c_x[3]+0.1*vx-0.2*vy)*(1+(id%7))
 compute         k2 points reduce sum c_k[1] v_place
+compute         b2 bound reduce sum c_site[5] c_site[7] c_site[13]
 compute         all all reduce sum v_place
 """
 THERMO = """
 thermo_style    custom step atoms pe c_hf[1] c_hf[2] c_hf[3] c_hf[4] c_hf[5] c_hf[6] c_t c_u[1] c_shape[1] c_shape[2] &
-                c_k2[1] c_k2[2] c_all vol f_b f_b[1] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17]
+                c_k2[1] c_k2[2] c_all f_i4[3][4] f_i4[3][6] vol f_b f_b[1] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17] &
+                f_h f_h[2] f_h[4] f_h[6] c_bt c_b2[1] c_b2[2] c_b2[3] c_density[1][3]
 thermo_modify   norm no format float %24.17g
 """
 DUMP = "dump            d points membrane/image 1 {image}.*.ppm type type size 40 40\n"
@@ -71,10 +86,10 @@ thermo          1
 timestep        0.002
 min_style       membrane
 """
-RUN = "run 3\n"
+RUN = "group breathing clear\ngroup breathing subtract all modes\nrun 3\n"    # the box of modes must not change
 
-REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "b", "s")) + FIXES
-UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "k2", "x", "k", "shape", "u", "t", "hf")) + COMPUTES + THERMO
+REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "i4", "p", "h", "b", "s")) + FIXES
+UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "b2", "k2", "x", "k", "shape", "u", "density", "site", "bt", "t", "hf")) + COMPUTES + THERMO
 FOURTH = """
 region          gap sphere 0 0 3 1.4
 group           gap region gap
@@ -86,13 +101,24 @@ group           points type 1
 group           walls union nve langevin
 """
 REPLICATE = """
+thermo_style    one
 unfix           s
+uncompute       b2
+uncompute       site
+uncompute       density
+unfix           h
 replicate       1 2 1
+region          lower block INF INF INF 3 INF INF
+group           lower region lower
+group           three type 3
+group           bound clear
+group           bound intersect three lower
 group           nve clear
 group           nve molecule 1
 group           walls clear
 group           walls union nve langevin
-""" + FIXES.splitlines()[-1] + THERMO
+""" + "\n".join(FIXES.splitlines()[k] for k in (-3, -1)) + "".join(
+    "\n" + line for line in COMPUTES.splitlines() if "compute         site" in line or "density" in line or "b2" in line) + THERMO
 COMMANDS = {
     "nothing": "",
     "replicate": REPLICATE,
@@ -103,6 +129,10 @@ COMMANDS = {
                                      "create_membrane 1 sphere 1 1.0 center -3 0 0 molecule 1 mass 10\ngroup nve molecule 1\n"
                                      "group points type 1\ngroup walls union nve langevin",
     "create_atoms": "create_atoms 2 single 0 2.5 2.5\ncreate_atoms 2 single 1 -2.5 2.5\ngroup solvent type 2",
+    "create_bound": "create_bound 5 3 nve 12 height 0.05 mass 2.0\ngroup bound type 3",
+    "delete_atoms of bound atoms": "variable odd atom id%2==1\ngroup odd variable odd\n"
+                                   "group gone intersect odd bound\ndelete_atoms group gone compress no",
+    "write_bound": "write_bound h w.sites",
     "reset_atoms id": "reset_atoms id",
     "reset_atoms id sort": "reset_atoms id sort yes",
     "reset_timestep": "reset_timestep 0",

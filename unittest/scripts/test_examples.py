@@ -85,4 +85,10 @@ error = [float(row[9].rstrip(",")) for row in rows if row[:2] == ["fitted", "tra
 claim("bound: tracers diffuse as they do when free", code == 0 and abs(free[1] - 0.1) < 0.005 + 3 * error[1], f"{free} +- {error}")
 claim("    and proteins that crowd one another more slowly", all(0.3 < c / 0.1 < 0.6 for c in crowded), crowded)
 
+output = example("bound_sorting", ("run             8000", "run             1200"), ("run             2000", "run             1000"),
+                 script="in.sorting")
+code, rows = plotted("bound_sorting", "sorting.txt")
+crests, theory = float(rows[-1][4]), float(rows[-1][8])
+claim("bound_sorting: coats gather on the crests", code == 0 and crests > 1.5 and theory > 1.5, f"{crests}, theory {theory}")
+
 finish()

@@ -16,7 +16,7 @@ FAMILIES = (
     "atom_vec_membrane_cp", "angle_membrane", "mesh_", "create_membrane", "write_membrane",    # mesh
     "compute_membrane_", "pair_helfrich", "helfrich_", "restart_archive",            # surface, energy
     "hd_", "fix_hd_", "compute_hd_", "min_membrane",                                 # motion, minimization
-    "bound_", "fix_hd_bound", "fix_hd_bind", "create_bound",                         # bound particles
+    "bound_", "fix_hd_bound", "fix_hd_bind", "create_bound", "write_bound",                       # bound particles
     "srd_", "fix_srd_mesh", "create_solvent",                                        # solvent
     "molecules_",                                                                    # molecules
     "trial_energy", "box_scaling", "fix_hd_tension",                                        # Monte Carlo

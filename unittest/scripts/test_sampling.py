@@ -73,6 +73,47 @@ for command in ("replicate 2 1 1", "delete_atoms group second mol yes\nreset_ato
               len(rows) == 8 and all(abs(row["c_T"] / 0.05 - 1) < 0.5 for row in rows[2:4] + rows[6:]),
               [round(row["c_T"], 4) for row in rows])
 
+# === A reference from a membrane in thermal motion: short waves are taken out of it
+
+SHEET = """
+units           lj
+atom_style      membrane_cp
+region          box block 0 12 0 12.124355652982141 -6 6
+create_box      1 box angle/types 1
+create_membrane 1 plane 12 14 mass 0.866
+"""
+ENERGY = """
+special_bonds   lj/coul 1 1 1
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0 regularize 1.0 conformal area 5.0 {}
+timestep        0.3
+compute         s all membrane/shape
+thermo_style    custom step c_s[9]
+thermo          500
+"""
+ONE, TWICE = ENERGY.format(145.49226783578569), ENERGY.format(290.98453567157138)
+
+
+def limits(output):
+    return [float(line.split()[-1]) for line in output.split("\n") if "stability limit" in line]
+
+
+output = run(SHEET + ONE + LANGEVIN + "run 300\nhd_timestep all\nwrite_data thermal.data\nunfix 1\n" + LANGEVIN +
+             "hd_timestep all\nrun 1000\n")
+found = limits(output)
+claim("a fix made anew in thermal motion is stable for the same timesteps as one that began with a flat sheet",
+      found[1] > 0.8 * found[0], found)
+claim("    and goes on at 0.3", thermo(output)[-1]["c_s[9]"] > 15, thermo(output)[-1])
+for name, text in (("read_data", "units lj\natom_style membrane_cp\nread_data thermal.data\n" + ONE + LANGEVIN + "run 1000\n"),
+                   ("replicate", SHEET + ONE + LANGEVIN + "run 300\nreplicate 2 1 1 bond/periodic\nset type 1 mol 1\n" +
+                    TWICE[TWICE.index("pair_coeff"):TWICE.index("timestep")] + "run 1000\n")):
+    for ranks in (1, 2):
+        rows = thermo(run(text, ranks=ranks))
+        claim(f"so does a run after {name}, {ranks} rank(s)", rows[-1]["c_s[9]"] > 15, rows[-1])
+rows = thermo(run(SCENE.replace("sphere 2 1.0", "sphere 3 1.0").replace("timestep        0.4", "timestep        0.3") + LANGEVIN +
+                  "compute s all membrane/shape\nthermo_style custom step c_T c_s[9]\nthermo 300\nrun 300\nunfix 1\n" + LANGEVIN + "run 600\n"))
+claim("so does a vesicle of 642 points", rows[-1]["c_s[9]"] > 15 and abs(rows[-1]["c_T"] / 0.05 - 1) < 0.2, rows[-1])
+
 # === The measure
 
 rows = thermo(run(SCENE + LANGEVIN + "run 0\nunfix 1\nfix 1 all hd/nve\nrun 0\nfix 1 all hd/nve measure 0.05\nrun 0\n"

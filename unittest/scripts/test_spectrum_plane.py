@@ -1,7 +1,9 @@
 """Thermal undulations of a plane have the spectrum of theory, with fix hd/langevin and hd/brownian alike,
 and no mode grows without bound; with quadrature 1 one does.
 
-    MEMBRANE_LONG=1    1,000,000 steps in each run in place of some ten thousand
+    MEMBRANE_LONG=1    1,000,000 steps in each run in place of some ten thousand; other integrators, and tension
+
+The short form has what test_thermal_plane.py, at the temperature of a bilayer, has not.
 
 Temperatures are low, kT = 1e-4 kc, so that undulations are small and theory holds to 0.1 % or better.
 Theory for the plane is that of the discrete system, see thermal_factor(). Modes that symmetry makes
@@ -10,7 +12,7 @@ run, each many relaxation times long. Of many means some are off by more than tw
 chance: the claims are that the largest deviation and the sum of squares are within what 99 % of runs
 have. Seeds are fixed.
 """
-# cost: 40
+# cost: 15
 # timeout: 7200
 
 import math
@@ -92,12 +94,12 @@ claim("the factor of the mesh is the published one", all(abs(a - b) < 5e-4 for a
 
 ratios = {}
 DRAG = EDGES[1][1]
-RUNS = [("plane, hd/langevin", "hd/langevin {kT} {kT} 2.8 4711", 0.15, 50000, "regularize 0.1"),
-        ("plane, hd/langevin mass sampling", "hd/langevin {kT} {kT} 1.5 4712 mass sampling", 0.8, 12000, "regularize 0.1"),
-        ("plane, hd/brownian mass sampling", "hd/brownian {kT} 4713 mass sampling", 0.4, 16000, "regularize 0.1"),
-        ("plane with tension 0.5", "hd/langevin {kT} {kT} 2.0 4714 mass lumped", 0.4, 30000, "regularize 0.1 tension 0.5")]
+RUNS = [("plane, hd/langevin", "hd/langevin {kT} {kT} 2.8 4711", 0.15, 25000, "regularize 0.1")]
 if LONG:
-    RUNS += [("plane, hd/langevin mass lumped", "hd/langevin {kT} {kT} 2.8 4712 mass lumped", 0.4, 100000, "regularize 0.1"),
+    RUNS += [("plane, hd/langevin mass sampling", "hd/langevin {kT} {kT} 1.5 4712 mass sampling", 0.8, 12000, "regularize 0.1"),
+             ("plane, hd/brownian mass sampling", "hd/brownian {kT} 4713 mass sampling", 0.4, 16000, "regularize 0.1"),
+             ("plane with tension 0.5", "hd/langevin {kT} {kT} 2.0 4714 mass lumped", 0.4, 30000, "regularize 0.1 tension 0.5"),
+             ("plane, hd/langevin mass lumped", "hd/langevin {kT} {kT} 2.8 4712 mass lumped", 0.4, 100000, "regularize 0.1"),
              ("plane, hd/brownian mass lumped", f"hd/brownian {{kT}} 4713 gamma_t {DRAG} mass lumped", 0.15, 120000,
               "regularize 0.1")]
 for name, fix, dt, steps, terms in RUNS:
@@ -105,19 +107,20 @@ for name, fix, dt, steps, terms in RUNS:
     blocks, rows = plane(fix.format(kT=KT), dt, steps, terms)
     tension = 0.5 if "tension" in terms else 0.0
     ratios[name] = shells(blocks, tension=tension)
-    compare(f"{name}, qh up to 1", ratios[name])
+    compare(f"{name}, qh up to 1", ratios[name], 0.01 if LONG else 0.02)
     every = [[block[i] / expected(wave, tension) for block in blocks] for i, wave in enumerate(WAVES)]
     most = max(max(values) for values in every)
     claim(f"{name}: no mode grows in {BLOCKS * block_length(steps)} steps", most < (1.5 if LONG else 4.0),
           f"in no block of the run has any of the {len(WAVES)} modes more than {most:.2f} times its power of theory")
     claim("    nor does the mesh degrade", min(row["c_s[9]"] for row in rows) > 40,
           f"smallest angle {min(row['c_s[9]'] for row in rows):.1f}")
-agree("plane: hd/langevin and hd/brownian", ratios["plane, hd/langevin"], ratios["plane, hd/brownian mass sampling"])
-agree("plane: mass vertex and sampling", ratios["plane, hd/langevin"], ratios["plane, hd/langevin mass sampling"])
+if LONG:
+    agree("plane: hd/langevin and hd/brownian", ratios["plane, hd/langevin"], ratios["plane, hd/brownian mass sampling"])
+    agree("plane: mass vertex and sampling", ratios["plane, hd/langevin"], ratios["plane, hd/langevin mass sampling"])
 
 corner = f"c_c[{CORNER[0] * (2 * CORNER[0] + 1)}][6]"
 for rule in (6, 1):
-    _, rows = plane(f"hd/langevin {KT} {KT} 2.8 4711 mass lumped", 0.4, 16000, rule=rule)
+    _, rows = plane(f"hd/langevin {KT} {KT} 2.8 4711 mass lumped", 0.4, 8000, rule=rule)
     power = sum(row[corner] for row in rows) / len(rows) / expected(CORNER)
     claim(f"quadrature {rule}: the wave of the zone's corner " + ("grows without bound" if rule == 1 else "has its power"),
           power > 30 if rule == 1 else 0.3 < power < 2, f"{power:.3g} times the power of theory")

@@ -1,9 +1,9 @@
 """A vesicle of reduced volume 0.65 at kc = 20 kT, where shapes go from oblate to prolate: mass sampling gives the averages and
 fluctuations that mass lumped does.
 
-    MEMBRANE_LONG=1    ten times the steps
+    MEMBRANE_LONG=1    twenty times the steps
 """
-# cost: 50
+# cost: 30
 # timeout: 7200
 
 import math
@@ -58,9 +58,9 @@ def compare(one, other):
                   f"{a:.5g}({da:.1g}) {b:.5g}({db:.1g})")
 
 
-SCALE = 10 if LONG else 1
-lumped, _ = vesicle("hd/langevin 0.05 0.05 0.5 4711 mass lumped", 0.009, 40000 * SCALE, 20, 4000)
-sampling, output = vesicle("hd/langevin 0.05 0.05 3.0 4712 mass sampling", 0.15, 30000 * SCALE, 5, 1000)
+SCALE = 20 if LONG else 1
+lumped, _ = vesicle("hd/langevin 0.05 0.05 0.5 4711 mass lumped", 0.009, 20000 * SCALE, 10, 4000)
+sampling, output = vesicle("hd/langevin 0.05 0.05 3.0 4712 mass sampling", 0.15, 22000 * SCALE, 5, 1000)
 compare(sampling, lumped)
 v, error = mean_and_error(sampling["reduced volume"][0])
 claim("the reduced volume is 0.65", abs(v - 0.65) < 0.01, f"{v:.4f}({error:.4f})")
