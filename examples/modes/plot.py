@@ -5,7 +5,7 @@ their pictures."""
 import math
 import os
 
-KC, ETA, DT = 20.0, 10.0, 0.2
+KC, KT, ETA, DT = 20.0, 0.1, 10.0, 0.2
 AREA = 16 * 13.856406460551018
 
 
@@ -28,7 +28,7 @@ def solvent():
     curves = {}
     for k in range(3):
         q = 2 * math.pi * (k + 1) / 16
-        power = 1 / (AREA * KC * q ** 4)
+        power = KT / (AREA * KC * q ** 4)
         rate = KC * q ** 3 / (4 * ETA)
         curves[k + 1] = [(row[1] * DT, (row[3 + 2 * k] + row[4 + 2 * k]) / power, math.exp(-rate * row[1] * DT))
                          for row in rows]

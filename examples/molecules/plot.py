@@ -39,4 +39,4 @@ for axis, (name, (cut, (low, high))) in zip(axes, CUTS.items()):
     axis.set_aspect("equal")
     axis.axis("off")
 figure.tight_layout()
-figure.savefig("molecules.png", dpi=150)
+figure.savefig("molecules.png", dpi=100)

@@ -93,6 +93,29 @@ void ModalMass::find_decay()
    Sums over vertices of psi_ij f_i, in blocks of rows that stay in cache, and then those of the modes
 ------------------------------------------------------------------------- */
 
+template <int WIDTH>
+static inline void add_products(const Lane *psi, int stride, const double (*force)[3], int count, Lane *x, Lane *y,
+                                Lane *z)
+{
+  Lane sx[WIDTH], sy[WIDTH], sz[WIDTH];
+  for (int w = 0; w < WIDTH; ++w) {
+    sx[w] = x[w];
+    sy[w] = y[w];
+    sz[w] = z[w];
+  }
+  for (int i = 0; i < count; ++i, psi += stride)
+    for (int w = 0; w < WIDTH; ++w) {
+      sx[w] += psi[w] * force[i][0];
+      sy[w] += psi[w] * force[i][1];
+      sz[w] += psi[w] * force[i][2];
+    }
+  for (int w = 0; w < WIDTH; ++w) {
+    x[w] = sx[w];
+    y[w] = sy[w];
+    z[w] = sz[w];
+  }
+}
+
 VectorXd ModalMass::project(const VertexField &f) const
 {
   constexpr int ROWS = 32;
@@ -104,21 +127,14 @@ VectorXd ModalMass::project(const VertexField &f) const
     const int blocks = membrane.modes->functions / LANES;
     const auto rows = static_cast<int>(membrane.local.size());
     Lane *x = &sums[place], *y = x + blocks, *z = y + blocks;
+    double force[ROWS][3];
     for (int first = 0; first < rows; first += ROWS) {
-      const int last = std::min(first + ROWS, rows);
-      for (int j = 0; j < blocks; ++j) {
-        Lane sx = x[j], sy = y[j], sz = z[j];
-        for (int i = first; i < last; ++i) {
-          const Lane psi = membrane.psi[(size_t) i * blocks + j];
-          const double *force = f[membrane.local[i]].c;
-          sx += psi * force[0];
-          sy += psi * force[1];
-          sz += psi * force[2];
-        }
-        x[j] = sx;
-        y[j] = sy;
-        z[j] = sz;
-      }
+      const int count = std::min(ROWS, rows - first);
+      for (int i = 0; i < count; ++i) std::copy_n(f[membrane.local[first + i]].c, 3, force[i]);
+      const Lane *psi = &membrane.psi[(size_t) first * blocks];
+      int j = 0;
+      for (; j + 2 <= blocks; j += 2) add_products<2>(psi + j, blocks, force, count, x + j, y + j, z + j);
+      if (j < blocks) add_products<1>(psi + j, blocks, force, count, x + j, y + j, z + j);
     }
     place += 3 * blocks;
   }

@@ -16,6 +16,7 @@
 
 #include "lmptype.h"
 
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <string>
@@ -41,6 +42,22 @@ class RestartArchive {
   const std::string &bytes() const { return data; }
   bool ok() const { return good; }
   bool at_end() const { return position == data.size(); }
+
+  /// As Fix::write_restart() has it to be: the size of what follows, and that.
+  void write_of_fix(FILE *fp) const
+  {
+    const int length = static_cast<int>(data.size()), size = length + sizeof(int);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(&length, sizeof(int), 1, fp);
+    fwrite(data.data(), 1, length, fp);
+  }
+  /// What Fix::restart() is given: without the size, hence the length once more.
+  static RestartArchive of_fix(const char *buf)
+  {
+    int length;
+    std::memcpy(&length, buf, sizeof(int));
+    return RestartArchive(std::string(buf + sizeof(int), length));
+  }
 
   template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0> void operator()(T &value)
   {

@@ -191,11 +191,12 @@ TEST(SurfacePoint, TheFrameOfAnExtraordinaryVertexIsTangentToTheSurface)
 TEST(SurfacePoint, WeightsOfTheControlPointsGiveTheDerivatives)
 {
   SurfaceWeights weights;
+  LimitPatches patches;
   double worst[4] = {};
   for (const TriangleMesh &mesh : rough_meshes()) {
     const SurfaceScene scene(mesh);
     Random random(14);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < how_many(100); ++i) {
       const SurfacePoint p = random_point(scene.topology, random, true);
       StencilPoints control;
       stencil_points(scene.topology, mesh, p.face, control);
@@ -203,7 +204,6 @@ TEST(SurfacePoint, WeightsOfTheControlPointsGiveTheDerivatives)
       ASSERT_EQ(weights.cols(), control.rows());
       ASSERT_EQ(weights.cols(), scene.surface.stencil(p.face).size());
       EXPECT_NEAR(weights.row(0).sum(), 1.0, 1.0e-14);
-      LimitPatches patches;
       const double scale =
           std::fabs(patches.get(scene.topology.valences(p.face)).part_at(p.u, p.v).scale);
       const SurfaceJet jet = scene.surface.evaluate<3>(p);

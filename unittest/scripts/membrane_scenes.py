@@ -142,5 +142,10 @@ def read_dump(path):
     return frames
 
 
+def frames(path):
+    """The same as lists of rows, the atom ID first, sorted by it."""
+    return [[[i, *frame[i]] for i in sorted(frame)] for frame in read_dump(path)]
+
+
 def largest(values):
     return max(abs(value) for value in values)

@@ -9,7 +9,8 @@
 import math
 
 from lammps_claims import LONG, claim, finish, run, thermo
-from membrane_scenes import TETRAHEDRON, bipyramid, write_off
+from membrane_scenes import TETRAHEDRON, bipyramid, frames, write_off
+from spread_and_slope import order, slope, spread
 
 SCENE = """
 units           lj
@@ -47,33 +48,10 @@ def script(n=10, m=1.0, hold="spring 3000", dt=0.005, every=1, newton="on", mass
                         more=more or ("f_b[4]" if n else ""))
 
 
-def spread(values):
-    mean = sum(values) / len(values)
-    return math.sqrt(sum((v - mean)**2 for v in values) / len(values))
-
-
-def slope(xs, ys):
-    mx, my = sum(xs) / len(xs), sum(ys) / len(ys)
-    return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx)**2 for x in xs)
-
-
 def energies(time, **options):
     steps = round(time / options["dt"])
     rows = thermo(run(script(**options) + f"run {steps}\n"))
     return [row["TotEng"] for row in rows[-(steps // options.get("every", 1)) - 1:]]
-
-
-def frames(path):
-    """Frames of a dump custom: lists of rows sorted by id."""
-    result, lines = [], open(path).read().split("\n")
-    for start in [i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")]:
-        rows = []
-        for line in lines[start + 1:]:
-            if not line or line.startswith("ITEM"):
-                break
-            rows.append([float(word) for word in line.split()])
-        result.append(sorted(rows))
-    return result
 
 
 def apart(a, b):
@@ -87,9 +65,9 @@ bare = [spread(energies(1.0, n=0, dt=dt)) for dt in steps]
 for n, m, hold in ((10, 0.1, "spring 300"), (10, 1.0, "spring 3000"), (10, 10.0, "spring 5000"),
                    (100, 1.0, "spring 1000"), (10, 1.0, "rigid"), (10, 10.0, "rigid")):
     errors = [spread(energies(1.0, n=n, m=m, hold=hold, dt=dt)) for dt in steps]
-    order = slope([math.log(dt) for dt in steps], [math.log(e) for e in errors])
+    power = order(steps, errors)
     claim(f"{n} particles of mass {m}, {hold}: energy error goes as dt^2 over a factor 8",
-          abs(order - 2) < 0.1, f"order {order:.3f}, errors " + " ".join(f"{e:.2e}" for e in errors))
+          abs(power - 2) < 0.1, f"order {power:.3f}, errors " + " ".join(f"{e:.2e}" for e in errors))
     claim("    and is at most 1.3 times that of the bare membrane", errors[-1] < 1.3 * bare[-1],
           f"{errors[-1] / bare[-1]:.2f}")
 

@@ -8,6 +8,8 @@
 import math
 
 from lammps_claims import LONG, claim, finish, run, thermo
+from membrane_scenes import frames
+from spread_and_slope import order, spread
 
 SCENE = """
 units           lj
@@ -43,29 +45,6 @@ def script(n=10, hold="spring 3000", dt=0.005, every=1, coupling=ISOTROPIC):
     return SCENE.format(n=n, hold=hold, dt=dt, every=every, coupling=coupling)
 
 
-def spread(values):
-    mean = sum(values) / len(values)
-    return math.sqrt(sum((v - mean)**2 for v in values) / len(values))
-
-
-def slope(xs, ys):
-    mx, my = sum(xs) / len(xs), sum(ys) / len(ys)
-    return sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx)**2 for x in xs)
-
-
-def frames(path):
-    """Frames of a dump custom: lists of rows sorted by id."""
-    result, lines = [], open(path).read().split("\n")
-    for start in [i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")]:
-        rows = []
-        for line in lines[start + 1:]:
-            if not line or line.startswith("ITEM"):
-                break
-            rows.append([float(word) for word in line.split()])
-        result.append(sorted(rows))
-    return result
-
-
 # === Forces are derivatives of the energy: its error goes as dt^2, and footprints take part in it
 
 for name, coupling in (("isotropic", ISOTROPIC), ("with a director", BAR)):
@@ -75,10 +54,10 @@ for name, coupling in (("isotropic", ISOTROPIC), ("with a director", BAR)):
         rows = thermo(run(script(dt=dt, coupling=coupling) + f"run {round(1.0 / dt)}\n"))[-round(1.0 / dt) - 1:]
         errors.append(spread([row["TotEng"] for row in rows]))
         share = spread([row["f_b[6]"] for row in rows])
-    order = slope([math.log(dt) for dt in steps], [math.log(e) for e in errors])
+    power = order(steps, errors)
     claim(f"{name}: energy error goes as dt^2 over a factor 8, while footprints exchange much more",
-          abs(order - 2) < 0.1 and share > 50 * errors[-1],
-          f"order {order:.3f}, errors " + " ".join(f"{e:.2e}" for e in errors) + f", footprints {share:.2f}")
+          abs(power - 2) < 0.1 and share > 50 * errors[-1],
+          f"order {power:.3f}, errors " + " ".join(f"{e:.2e}" for e in errors) + f", footprints {share:.2f}")
 
 # === Pressure is that of the energy under strain of the box: one central difference
 

@@ -1,6 +1,6 @@
 """Bound particles in equilibrium: uniform in area, diffusion on a sphere, width of the spring.
 
-    MEMBRANE_LONG=1    ten times the particles
+    MEMBRANE_LONG=1    forty times the particles
 """
 # cost: 60
 # timeout: 14400
@@ -8,9 +8,9 @@
 import math
 
 from lammps_claims import LONG, claim, finish, run, thermo
-from membrane_scenes import bipyramid, write_off
+from membrane_scenes import bipyramid, frames, read_off, write_off
 
-N = 20000 if LONG else 800
+N = 20000 if LONG else 500
 
 # === A frozen surface with uneven triangles: atoms that start in one place come to be uniform in area
 
@@ -37,19 +37,6 @@ run             {steps}
 """.replace("mass_of_type\n", "set type 2 mass 1.0\n")
 points, faces = bipyramid(7)
 write_off("uneven.off", [(1.5 * x, y, 0.6 * z) for x, y, z in points], faces)
-
-
-def frames(path):
-    """Frames of a dump custom: lists of rows sorted by id."""
-    result, lines = [], open(path).read().split("\n")
-    for start in [i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")]:
-        rows = []
-        for line in lines[start + 1:]:
-            if not line or line.startswith("ITEM"):
-                break
-            rows.append([float(word) for word in line.split()])
-        result.append(sorted(rows))
-    return result
 
 
 def counts(rows, nfaces):
@@ -110,7 +97,6 @@ write_membrane  fine.off subdivide 3
 """
 text = SHAPE
 run(text, timeout=7200)
-from membrane_scenes import read_off
 xs, fs = read_off("fine.off")
 moment, area = [0.0] * 3, 0.0
 for a, b, c in fs:

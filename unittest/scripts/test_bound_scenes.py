@@ -6,11 +6,8 @@ between two runs, r-RESPA, minimization, deforming boxes; and every wrong input.
 import math
 
 from lammps_claims import claim, finish, lammps, run, thermo
-
-
-def spread(values):
-    mean = sum(values) / len(values)
-    return math.sqrt(sum((v - mean)**2 for v in values) / len(values))
+from membrane_scenes import frames
+from spread_and_slope import spread
 
 
 # === A sheet that continues through a triclinic box, particles that cross its faces, at a height, LJ between them
@@ -49,18 +46,6 @@ thermo          {every}
 
 def sheet(n=20, dt=0.004, hold="spring 3000", every=1, newton="on", leaflet="both"):
     return SHEET.format(n=n, dt=dt, hold=hold, every=every, newton=newton, leaflet=leaflet)
-
-
-def frames(path):
-    result, lines = [], open(path).read().split("\n")
-    for start in [i for i, line in enumerate(lines) if line.startswith("ITEM: ATOMS")]:
-        rows = []
-        for line in lines[start + 1:]:
-            if not line or line.startswith("ITEM"):
-                break
-            rows.append([float(word) for word in line.split()])
-        result.append(sorted(rows))
-    return result
 
 
 for hold in ("spring 3000", "rigid"):

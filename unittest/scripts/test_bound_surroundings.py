@@ -7,6 +7,7 @@ import math
 
 from lammps_claims import claim, finish, run, thermo
 from membrane_scenes import bipyramid, read_dump, read_off, write_off
+from spread_and_slope import spread
 
 # === A vesicle at kc = 20 kT of 30 points, of valences 7, 4 and 6, that undulates: 42 of 56 faces are irregular
 
@@ -35,11 +36,6 @@ thermo_style    custom step pe etotal c_T {more}
 thermo_modify   norm no format float %.16g temp T
 thermo          {every}
 """
-
-
-def spread(values):
-    mean = sum(values) / len(values)
-    return math.sqrt(sum((v - mean)**2 for v in values) / len(values))
 
 
 def moving(hold, n=10, m=1.0, dt=0.005, every=1, more=""):

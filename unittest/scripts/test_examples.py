@@ -1,5 +1,5 @@
 """The examples of dynamics do what they say; those that take averages with a tenth of their steps."""
-# cost: 45
+# cost: 40
 
 import os
 import shutil
@@ -29,7 +29,8 @@ def ratios_of(rows):
     return [float(row[-3]) for row in rows]
 
 
-output = example("vesicle_nve")
+output = example("vesicle_nve", ("2000 2000 v_d", "800 800 v_d"), ("run             2000", "run             800"),
+                 ("4000 4000 v_d", "1600 1600 v_d"), ("run             4000", "run             1600"))
 last = [line for line in output.split("\n") if line.startswith("timestep ") and "smaller by a factor" in line][-1]
 factor = float(last.split()[-1])
 claim("vesicle_nve: half the timestep has a quarter of the energy error", 3.5 < factor < 4.5, last)
@@ -69,7 +70,7 @@ for name in ("plane", "vesicle"):
           f"{early:+.3f}, {rows[-1][1]:.3f} in the end")
 
 output = example("poiseuille", ("20 250 5000 layer", "20 50 1000 layer"), ("20 250 5000 v_speed", "20 50 1000 v_speed"),
-                 ("index 1000 1000 3000 15000 20000", "index 500 500 500 1500 2000"),
+                 ("index 1000 1000 3000 15000 20000", "index 300 300 400 1000 1000"),
                  script="in.poiseuille")
 code, rows = plotted("poiseuille", "flow.txt")
 *profile, last = rows
@@ -78,7 +79,7 @@ claim("poiseuille: the vesicle takes away some of the flow, and is faster than i
       code == 0 and len(profile) == 24 and 0.7 < mean / without < 1.0 and mean < speed < 1.5 * without,
       f"vesicle {speed:.3f}, mean {mean:.3f}, without vesicle {without:.3f}")
 
-output = example("bound", ("run             12000", "run             4000"), script="in.bound")
+output = example("bound", ("run             12000", "run             3000"), script="in.bound")
 code, rows = plotted("bound", "decay.txt")
 free, crowded = [[float(row[7].rstrip(",")) for row in rows if row[:2] == ["fitted", kind]] for kind in ("tracers", "proteins")]
 error = [float(row[9].rstrip(",")) for row in rows if row[:2] == ["fitted", "tracers"]]
@@ -91,4 +92,9 @@ code, rows = plotted("bound_sorting", "sorting.txt")
 crests, theory = float(rows[-1][4]), float(rows[-1][8])
 claim("bound_sorting: coats gather on the crests", code == 0 and crests > 1.5 and theory > 1.5, f"{crests}, theory {theory}")
 
+example("modes", ("run             60000", "run             6000"), script="in.solvent")
+code, rows = plotted("modes", "solvent.txt")
+off = [float(row[2]) - float(row[3]) for row in rows if row[0] == "3"]
+claim("modes: a wave in implicit solvent is forgotten as hydrodynamics has it", code == 0 and max(map(abs, off)) < 0.3,
+      f"within {max(map(abs, off)):.2f}")
 finish()

@@ -88,9 +88,9 @@ timestep        2e-4
 
 for mass in ("vertex", "consistent", "lumped"):
     fix = f"fix 1 all hd/langevin 0.5 0.5 0.02 4711 mass {mass}"
-    rows = thermo(run(VESICLE.format(fix=fix) + "run 1000\nrun 15000\n"))[101:]
+    rows = thermo(run(VESICLE.format(fix=fix) + "run 1000\nrun 10000\n"))[101:]
     mean = sum(row["c_T"] for row in rows) / len(rows)
-    error = math.sqrt(2 / 288 / (15000 * 2e-4 / 0.02))
+    error = math.sqrt(2 / 288 / (10000 * 2e-4 / 0.02))
     claim(f"mass {mass}: the mean temperature is that of the bath within three standard errors",
           abs(mean / 0.5 - 1) < 3 * error, f"{mean:.5f} +- {0.5 * error:.5f} of 0.5")
 
@@ -117,12 +117,12 @@ for name, fix in (("hd/nve", "velocity all create 0.1 99\nfix 1 all hd/nve"),
     claim(f"{name}: a run continued from a restart file is bitwise the same",
           open("straight.dump").read() == open("again.dump").read())
     last = {}
-    for ranks in (1, 2, 4):
+    for ranks in (1, 2):
         run(VESICLE.format(fix=fix) + DUMP.format(path="r.dump") + "run 200\n", ranks=ranks)
         lines = open("r.dump").read().split("ITEM: ATOMS")[-1].split("\n")[1:-1]
         last[ranks] = [float(word) for line in lines for word in line.split()[1:4]]
-    apart = max(abs(a - b) for r in (2, 4) for a, b in zip(last[1], last[r]))
-    claim(f"{name}: 2 and 4 ranks follow one rank", apart < 1e-9, f"{apart:.1e}")
+    apart = max(abs(a - b) for a, b in zip(last[1], last[2]))
+    claim(f"{name}: 2 ranks follow one", apart < 1e-9, f"{apart:.1e}")
 
 # === Wrong input
 

@@ -2,6 +2,7 @@
 
 # cost: 15
 
+import math
 import os
 
 from lammps_claims import MPIEXEC, REFERENCE, claim, error_of, finish, run, thermo
@@ -213,6 +214,40 @@ claim("a plane in another box than that of its file", "a.tsi: the mesh continues
       "box in x, which is 4 long, and the simulation box is 6 there; make a simulation box of that length" in error, error)
 out, after = measure("create_membrane 1 file a.tsi scale 2 2 2 center -4 -4 -4\n", lo=-4, hi=4)
 claim("scaled with its file it fits again", abs(after[0] - before[0]) < 1e-12 and abs(after[1] / before[1] - 4) < 1e-12, after)
+
+# === What TSI tells of vertices
+
+PARTICLES = BOX.format(lo=-2, hi=2) + """create_membrane 1 sphere 2 1.0
+group points molecule 1
+create_bound 9 2 points 4711
+group bound subtract all points
+set group bound mass 1.0
+region upper block INF INF INF INF 0 INF
+group upper region upper
+group top intersect points upper
+set group top type 2
+fix b bound hd/bind points
+"""
+for ranks in RANKS:
+    run(PARTICLES + "write_membrane b.tsi subdivide 2 inclusions b 3 domains yes\nwrite_dump bound custom b.dump x y z modify sort id\n", ranks=ranks)
+    words = open("b.tsi").read().split("\n")
+    first = next(i for i, line in enumerate(words) if line.startswith("vertex")) + 1
+    number = int(words[first - 1].split()[1])
+    vertices = [[float(w) for w in line.split()] for line in words[first:first + number]]
+    first = next(i for i, line in enumerate(words) if line.startswith("inclusion")) + 1
+    inclusions = [line.split() for line in words[first:] if line]
+    atoms = [[float(w) + 2 for w in line.split()] for line in open("b.dump").read().split("ATOMS x y z")[1].strip().split("\n")]
+    far = max(math.dist(vertices[int(row[2])][1:4], x) for row, x in zip(inclusions, atoms))
+    claim(f"bound particles are inclusions of vertices near them, {ranks} ranks",
+          len(inclusions) == 9 and far < 0.12 and len({row[2] for row in inclusions}) == 9 and {row[1] for row in inclusions} == {"3"}, far)
+    wrong = [v for v in vertices if abs(v[3] - 2) > 0.3 and v[4] != (v[3] > 2)]
+    claim(f"    and domains are the types of control points, {ranks} ranks", not wrong, wrong[:3])
+_, after = measure("create_membrane 1 file b.tsi center -2 -2 -2\n")
+claim("    and the file is read again", after[0] > 0, after)
+for end, words in (("b.off inclusions b 1", "only a file in TSI format"), ("b.tsi inclusions none 1", "none"),
+                   ("b.tsi inclusions b -1", "must not be negative")):
+    error = error_of(PARTICLES + f"write_membrane {end}\n")
+    claim(f"write_membrane {end}: one clear line", words in error, error)
 
 # === Wrong input
 

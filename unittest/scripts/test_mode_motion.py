@@ -235,6 +235,11 @@ for text, fix, words in (
     line = error_of(script)
     claim(f"{text}: one clear line", words in line, line)
 
+solvent = ("group m type 1\ncreate_solvent 2 both 3.0 4711 mass 1.0\ngroup s type 2\nfix 1 m hd/nve modes sphere min 2 max 4\n"
+           "fix 2 s srd/mesh 1 m 1.0 1.0 4711 shift yes 9127")
+line = error_of(VESICLE.replace("create_box      1", "create_box      2").format(
+    fix=solvent, rest="timestep 0.01\nrun 1", level=2, terms="", more="", center="", processors=""))
+claim("solvent around a membrane of modes: one clear line", "have relax eta in place of solvent" in line, line)
 line = error_of(SHEET.format(fix=MODES + "modes sphere min 2 max 4", row=5, terms="", dt=0.1, steps=1, every=1, start=wave(1)))
 claim("sphere modes of a sheet: one clear line", "is no sphere: use modes plane" in line, line)
 line = error_of(SHEET.format(fix=MODES + "modes plane 9 0", row=5, terms="", dt=0.1, steps=1, every=1, start=wave(1)))

@@ -1,6 +1,6 @@
 """membrane_build: lipids of a patch on membranes, whole and as many as the area asks for; its files read back by others; odd
 PDB files and bad input."""
-# cost: 40
+# cost: 60
 
 import glob
 import json
@@ -109,14 +109,14 @@ FROM_PATCH = "patch patch.pdb psf patch.psf seed 1 "
 # === Curved membranes
 
 BOX = "-100 100 -100 100 -100 100"
-SPHERE = f"sphere 3 {50 if LONG else 40} interpolate yes"
+SPHERE = "sphere 3 50 interpolate yes"
 first = None
-for ranks in (1, 3) if MPIEXEC else (1,):
+for ranks in (1, 2) if MPIEXEC else (1,):
     output = run(script(SPHERE, BOX, FROM_PATCH + f"format pdb,cif,gro,data,top out ball{ranks}"), ranks=ranks)
     files = {path.split(".")[1]: open(path).read() for path in glob.glob(f"ball{ranks}.*")}
     if first:
         same = [end for end in files if files[end] != first[end]]
-        claim("    the same files from three ranks", not same and len(files) == 6, same)
+        claim("    the same files from two ranks", not same and len(files) == 6, same)
         break
     first = files
     for leaflet in ("outer", "inner"):
@@ -189,7 +189,8 @@ if seen:
 else:
     print("note   MDAnalysis is missing (Debian: python3-mdanalysis): files are read back by LAMMPS only")
 
-output = run(open("in.relax").read().replace("run             200", "run             0"), args=["-var", "name", "ball1"], timeout=600)
+run(open("in.buckle").read())
+output = run(open("in.relax").read().replace("run             200", "run             0"), args=["-var", "name", "buckle"])
 energies = [float(line.split()[2]) for line in output.split("\n") if len(line.split()) == 7 and line.split()[0] in ("0", "300")]
 claim("LAMMPS reads the data file, and the structure relaxes", len(energies) >= 2 and energies[1] < 100 < energies[0], energies)
 

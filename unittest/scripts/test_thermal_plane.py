@@ -97,7 +97,7 @@ claim("on two ranks likewise", abs(costs["conformal", 2] / costs["conformal", 1]
 
 # === Spectra
 
-ratios, rows = sheet(2, 40000 if LONG else 8000)
+ratios, rows = sheet(2, 40000 if LONG else 5600)
 claims("672 points", ratios, 0.01)
 
 # what holds the frame: the virial, and the kinetic energy of equilibrium. That of the energy is zero, and the measure takes
@@ -111,7 +111,7 @@ claim("the frame of a sheet without tension has next to none, where the measure 
       abs(mean) < 0.03 * gas + 3 * error, f"{mean:.5f}({error:.5f}) of {gas:.4f}")
 claim("faces stay in shape", min(row["c_s[9]"] for row in rows) > 15, min(row["c_s[9]"] for row in rows))
 
-ratios, _ = sheet(1, 20000 if LONG else 14000, tension=0.5)
+ratios, _ = sheet(1, 20000 if LONG else 12000, tension=0.5)
 claims("168 points with tension 0.5", ratios, 0.012)
 
 message = sheet(2, 6000, fix=FIX + " measure no", start=error_of)

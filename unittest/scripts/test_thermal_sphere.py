@@ -7,7 +7,7 @@ tension s = 1.1 KR/kc besides (doc/src/pair_helfrich.rst). Theory is that of Mil
 <u_lm^2> = kT/[kc (l-1)(l+2)(l(l+1) + s)], harmonic but for what fluctuations do to kc, some (3/4 pi) kT/kc = 1 %.
 162 points are too few for it beyond l = 4.
 """
-# cost: 60
+# cost: 50
 # timeout: 14400
 
 import math
@@ -80,7 +80,7 @@ def means(power, rest):
     return {**{f"l = {l}": power[l] for l in (2, 3, 4)}, **{k: rest[k] for k in ("bending", "area", "reduced volume")}}
 
 
-LENGTH = 40000 if LONG else 6000
+LENGTH = 40000 if LONG else 4500
 
 # === With the measure and without it, 642 points
 
@@ -90,7 +90,7 @@ pressure, error = mean_and_error(rest["pressure"])
 claim("the volume needs next to no pressure: 6 kT/(3 V), as the virial theorem says",
       abs(pressure - 0.1 / (4 * math.pi / 3)) < 4 * error, f"{pressure:.3f}({error:.3f})")
 
-power, rest = vesicle(SAMPLING + " measure no", LENGTH // 2)
+power, rest = vesicle(SAMPLING + " measure no", 20000 if LONG else 2800)
 off = {l: mean_and_error([p / theory(l) for p in power[l]]) for l in (3, 4, 5)}
 claim("without the measure powers of l = 3, 4, 5 are 24, 17 and 13 % too high, to first order",
       all(mean - 3 * error > 1.08 for mean, error in off.values()) and off[3][0] > 1.15,
@@ -101,7 +101,7 @@ claim("and control points press as an ideal gas, 3 N kT/(3 V)",
 
 # === Other ways to the same averages, 162 points
 
-STEPS = LENGTH * (10 if LONG else 4)
+STEPS = 400000 if LONG else 16000
 coarse = means(*vesicle(SAMPLING, LENGTH, level=2))
 lumped = vesicle("hd/langevin {kT} {kT} 0.1 4712 mass lumped", STEPS, level=2, dt=0.008, every=10, equilibrate=4000)
 compare("mass sampling and lumped agree", coarse, means(*lumped))
