@@ -86,7 +86,8 @@ thermo          1
 timestep        0.002
 min_style       membrane
 """
-RUN = "group breathing clear\ngroup breathing subtract all modes\nrun 3\n"    # the box of modes must not change
+REGROUP = "group breathing clear\ngroup breathing subtract all modes\n"    # the box of modes must not change
+RUN = REGROUP + "run 3\n"
 
 REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "i4", "p", "h", "b", "s")) + FIXES
 UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "b2", "k2", "x", "k", "shape", "u", "density", "site", "bt", "t", "hf")) + COMPUTES + THERMO
@@ -207,7 +208,7 @@ for ranks in RANKS:
         here, before, there = (command.format(image=image, slip=slip) + "\n" for image in "acb")
         code, output = lammps(
             start("a", slip) + RUN + here + "print '=== on'\n" + RUN + "print '=== restart'\nclear\n" +
-            start("c", slip) + RUN + before + "write_restart m.restart\nprint '=== anew'\nclear\n" +
+            start("c", slip) + RUN + before + REGROUP + "write_restart m.restart\nprint '=== anew'\nclear\n" +
             start("b", slip, "read_restart m.restart\n") + (there if name in SETTINGS else "") + RUN, ranks=ranks)
         if not claim(f"{name} on {ranks}: all styles go on", code == 0, error_line(output) if code else ""):
             continue
