@@ -29,8 +29,7 @@ def ratios_of(rows):
     return [float(row[-3]) for row in rows]
 
 
-output = example("vesicle_nve", ("2000 2000 v_d", "800 800 v_d"), ("run             2000", "run             800"),
-                 ("4000 4000 v_d", "1600 1600 v_d"), ("run             4000", "run             1600"))
+output = example("vesicle_nve")
 last = [line for line in output.split("\n") if line.startswith("timestep ") and "smaller by a factor" in line][-1]
 factor = float(last.split()[-1])
 claim("vesicle_nve: half the timestep has a quarter of the energy error", 3.5 < factor < 4.5, last)
