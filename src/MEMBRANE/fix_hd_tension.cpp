@@ -32,7 +32,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using Membrane_NS::CounterRandom;
@@ -407,18 +406,12 @@ void FixHDTension::write_restart(FILE *fp)
   if (comm->me) return;
   RestartArchive file;
   archive(file);
-  const int length = static_cast<int>(file.bytes().size()), size = length + sizeof(int);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&length, sizeof(int), 1, fp);
-  fwrite(file.bytes().data(), 1, length, fp);
+  file.write_of_fix(fp);
 }
 
 void FixHDTension::restart(char *buf)
 {
-  int length;
-  memcpy(&length, buf, sizeof(int));
-  const std::string bytes(buf + sizeof(int), length);
-  RestartArchive file(bytes);
+  RestartArchive file = RestartArchive::of_fix(buf);
   archive(file);
   if (!file.ok() || !file.at_end())
     error->all(FLERR, "The restart file is damaged, or of another version: fix {} ({})", id, style);
