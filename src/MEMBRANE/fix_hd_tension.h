@@ -80,6 +80,7 @@ class FixHDTension : public Fix {
   bool has_points;                    // and some are there
   std::array<int, 2> plane;           // of the sheets
   double longest_step;                // that neighbor lists and stencils allow for
+  std::vector<char> goes_along;       // by component: it is in the group
   int movers;                         // bits of the groups that are integrated
   std::vector<class FixHDBound *> held;    // fixes whose atoms stay over their place on the surface
 
@@ -96,6 +97,7 @@ class FixHDTension : public Fix {
   // before a run
   void check_fixes();
   void check_membranes();
+  void check_bound_atoms();
   void check_measure();
   void check_temperatures();
   void limit_steps();

@@ -75,6 +75,7 @@ void FixHDTension::init()
 void FixHDTension::setup(int)
 {
   check_temperatures();
+  if (has_points) check_bound_atoms();
   if (has_points) check_measure();
   limit_steps();
   trial.expect(next_visit());
@@ -133,7 +134,9 @@ void FixHDTension::check_membranes()
   const auto continues = continuing_directions(topology, (*mesh)->triangle_mesh());
   const char *name = group->names[igroup];
   bool sheets = false;
+  goes_along.assign(n, 0);
   for (int c = 0; c < n; ++c) {
+    goes_along[c] = all[2 * c + 1];
     const tagint molecule = (*mesh)->molecule(c);
     const bool outside = all[2 * c], inside = all[2 * c + 1];
     if (inside && outside)
@@ -172,6 +175,30 @@ void FixHDTension::check_membranes()
   if (!moves)
     error->all(FLERR, "Fix hd/tension tension: the sheet spans {} and {}, and neither of them moves", "xyz"[plane[0]],
                "xyz"[plane[1]]);
+}
+
+// what is held on a membrane goes where it goes
+
+void FixHDTension::check_bound_atoms()
+{
+  const auto &topology = (*mesh)->topology();
+  for (auto &fix : modify->get_fix_list()) {
+    const auto *bound = dynamic_cast<FixHDBound *>(fix);
+    if (!bound) continue;
+    tagint mine = 0, any;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & bound->groupbit) || !bound->site(i).bound()) continue;
+      const int v = (*mesh)->vertex(bound->site(i).corner[0]);
+      const bool along = atom->mask[i] & groupbit;
+      if (v >= 0 && along != static_cast<bool>(goes_along[topology.component(v)])) mine = MAX(mine, atom->tag[i]);
+    }
+    MPI_Allreduce(&mine, &any, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+    if (any)
+      error->all(FLERR,
+                 "Fix hd/tension: atom {} of fix {} ({}) and the membrane that it is bound to are not both in group {}, or both "
+                 "outside: a move would tear it off",
+                 any, fix->id, fix->style, group->names[igroup]);
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -257,6 +257,9 @@ for text, words, script in (
          "fix t part hd/tension 5 0.05 1 xy\nrun 0\n"),
         ("a sheet that does not go with its box", "must go with", "group no empty\n"
          "fix t no hd/tension 5 0.05 1 xy\nrun 0\n"),
+        ("bound atoms that stay behind their membrane", "would tear it off",
+         "create_bound 9 2 mem 31 mass 1.0\ngroup p type 2\nfix 2 p nve\nfix b p hd/bind mem\n"
+         "fix t mem hd/tension 5 0.05 1 xy\nrun 0\n"),
         ("run_style respa", "respa", LANGEVIN.replace("langevin 0.05 0.05 1.5 4711 mass sampling", "nve") +
          "fix t all hd/tension 5 0.05 1 xy\nrun_style respa 2 2\nrun 0\n"),
         ("fix npt on control points", "use fix hd/langevin and fix hd/tension",
