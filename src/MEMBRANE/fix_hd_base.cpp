@@ -63,7 +63,7 @@ static constexpr int FACES_EVERY = 10;
 
 FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
-    noise_steps(0), most_drift(0.0),
+    noise_steps(0), noise_seed(0), noise_step(-1), noise_numbering(-1), most_drift(0.0),
     moved_step(-1), drawn_for(-1), passes(0), forces_due(false), remembers(false), check(true), limit_due(false), limit(0.0),
     watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style)),
     settled_step(-1), measured_step(-1)
@@ -214,7 +214,13 @@ void FixHDBase::accelerate()
     mass.matrix().add_gauge_forces(measure.kT, x, force_field);
   }
   acceleration.resize(force_field.size());
-  mass.matrix().solve(force_field, acceleration);
+  if (noise_seed) {
+    noise.resize(force_field.size());
+    mass.matrix().solve_with_noise(force_field, acceleration, noise_seed, noise_steps, noise);
+    noise_step = noise_steps;
+    noise_numbering = mass.numbering();
+  } else
+    mass.matrix().solve(force_field, acceleration);
   passes = mass.matrix().passes();
   mass.report_missed_tolerance();
 }
@@ -255,6 +261,19 @@ void FixHDBase::kick(double step)
 
 void FixHDBase::drift(double step)
 {
+  move<false>(0.0, step);
+}
+
+// in one sweep over the atoms
+
+void FixHDBase::kick_and_drift(double kick_step, double drift_step)
+{
+  if (forces_due) accelerate();
+  move<true>(kick_step, drift_step);
+}
+
+template <bool KICKS> void FixHDBase::move(double kick_step, double step)
+{
   // here rather than in setup(), so that neither run 0 nor rerun pays for it
 
   if (limit_due) find_limit();
@@ -262,12 +281,16 @@ void FixHDBase::drift(double step)
 
   MeshPart &part = mass.part();
   const double fastest = most_drift / step, most = fastest * fastest;
+  const double scale = kick_step * force->ftm2v;
   int runaway = -1;
   for (int i = 0; i < part.owned; ++i) {
     const int j = part.atom_of(i);
     double *x = atom->x[j];
-    const double *v = atom->v[j];
-    for (int k = 0; k < 3; ++k) x[k] += step * v[k];
+    double *v = atom->v[j];
+    for (int k = 0; k < 3; ++k) {
+      if (KICKS) v[k] += scale * acceleration[i].c[k];
+      x[k] += step * v[k];
+    }
     if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most)) runaway = j;
   }
   if (runaway >= 0) report_runaway(atom->tag[runaway]);
@@ -283,12 +306,23 @@ void FixHDBase::drift(double step)
 
 /* ---------------------------------------------------------------------- */
 
-void FixHDBase::relax(double keep, double kT, bigint seed)
+VertexField &FixHDBase::unit_noise()
+{
+  if (noise_step != noise_steps || noise_numbering != mass.numbering()) accelerate();
+  return noise;
+}
+
+void FixHDBase::relax(double keep, double kT)
 {
   if (renew()) keep = 0.0;
-  mass.part().load(atom->v, velocity);
-  mass.matrix().relax(keep, kT, seed, noise_steps++, velocity);
-  mass.part().store(velocity, atom->v);
+  const VertexField &z = unit_noise();
+  const double spread = std::sqrt((1.0 - keep * keep) * kT);
+  MeshPart &part = mass.part();
+  for (int i = 0; i < part.owned; ++i) {
+    double *v = atom->v[part.atom_of(i)];
+    for (int k = 0; k < 3; ++k) v[k] = keep * v[k] + spread * z[i].c[k];
+  }
+  ++noise_steps;
 }
 
 void FixHDBase::relax(const std::vector<double> &keep, double kT, bigint seed)
@@ -305,13 +339,13 @@ void FixHDBase::relax_modes(double time, double kT, bigint seed)
   mass.part().store(velocity, atom->v);
 }
 
-void FixHDBase::balance(const VertexField &random1, const VertexField &random2)
+void FixHDBase::balance(double spread, const VertexField &noise1, const VertexField &noise2)
 {
   MeshPart &part = mass.part();
   for (int i = 0; i < part.owned; ++i) {
     double *v = atom->v[part.atom_of(i)];
     for (int k = 0; k < 3; ++k)
-      v[k] = force->ftm2v * acceleration[i].c[k] + random1[i].c[k] + random2[i].c[k];
+      v[k] = force->ftm2v * acceleration[i].c[k] + spread * (noise1[i].c[k] + noise2[i].c[k]);
   }
 }
 
@@ -404,5 +438,6 @@ double FixHDBase::memory_usage()
 {
   return mass.memory_usage() + faces->memory_usage() +
       sizeof(Vector4) *
-      (force_field.capacity() + acceleration.capacity() + velocity.capacity() + moved.capacity());
+      (force_field.capacity() + acceleration.capacity() + noise.capacity() + velocity.capacity() +
+       moved.capacity());
 }

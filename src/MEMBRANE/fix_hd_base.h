@@ -91,26 +91,32 @@ class FixHDBase : public Fix {
 
   // === Moves of the momenta p = M v and of x
 
-  /// Take the atoms' forces f for what follows: acceleration = M^-1 f.
+  /// Take the atoms' forces f for what follows: acceleration = M^-1 f; and unit noise, if there is a noise_seed.
   void accelerate();
   /// p += step f, which with constant M is v += step M^-1 f
   void kick(double step);
   /// x += step v; stops if a control point runs away
   void drift(double step);
-  /// p = keep p + noise: an exact step of friction and noise, with one number or, if the mass has
-  /// friction per vertex, one per owned vertex. Once a step.
-  void relax(double keep, double kT, bigint seed);
+  /// One after the other.
+  void kick_and_drift(double kick_step, double drift_step);
+  /// The noise of the present step with <z z^T> = M^-1, which accelerate() has made.
+  Membrane_NS::VertexField &unit_noise();
+  bigint noise_seed;    ///< of unit_noise(); 0 if none is wanted
+  /// p = keep p + unit noise: an exact step of friction and noise, once a step.
+  void relax(double keep, double kT);
+  /// The same with one number per owned vertex, if the mass has friction per vertex.
   void relax(const std::vector<double> &keep, double kT, bigint seed);
   /// The same for modes with friction of their own, over this time.
   void relax_modes(double time, double kT, bigint seed);
   /** Collective, once a step: whether mass sampling is another than in the last step, since the shape has left
       its reference, or at first, so that velocities of before are worth nothing. relax() does so itself. */
   bool renew();
-  /// v = M^-1 f + random1 + random2, where M is a drag matrix: forces and drag balance.
-  void balance(const Membrane_NS::VertexField &random1, const Membrane_NS::VertexField &random2);
+  /// v = M^-1 f + spread (noise1 + noise2), where M is a drag matrix: forces and drag balance.
+  void balance(double spread, const Membrane_NS::VertexField &noise1, const Membrane_NS::VertexField &noise2);
 
  private:
-  Membrane_NS::VertexField force_field, acceleration, velocity, moved;
+  Membrane_NS::VertexField force_field, acceleration, noise, velocity, moved;
+  bigint noise_step, noise_numbering;    // which step and which matrix `noise` is for
   double most_drift;
   bigint moved_step;    // of which step `moved` is
   int64_t drawn_for;    // the reference of mass sampling that velocities are drawn for, or -1
@@ -123,6 +129,7 @@ class FixHDBase : public Fix {
 
   void check_other_integrators();
   void find_limit();
+  template <bool KICKS> void move(double kick_step, double drift_step);
   void report_runaway(tagint);
   std::string shape_lost_at(tagint);
 

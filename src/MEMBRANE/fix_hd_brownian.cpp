@@ -31,16 +31,15 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixHDBrownian::FixHDBrownian(LAMMPS *lmp, int narg, char **arg) :
-    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), with_measure(true), next_step(-1),
-    numbering(-1)
+    FixHDBase(lmp, narg, arg), gamma_t(0.0), dt(0.0), with_measure(true)
 {
   restart_global = 1;
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix hd/brownian", error);
   temperature = utils::numeric(FLERR, arg[3], false, lmp);
-  seed = utils::bnumeric(FLERR, arg[4], false, lmp);
+  noise_seed = utils::bnumeric(FLERR, arg[4], false, lmp);
   if (temperature < 0.0)
     error->all(FLERR, "Fix hd/brownian temperature {} must not be negative", arg[3]);
-  if (seed <= 0) error->all(FLERR, "Fix hd/brownian seed {} must be positive", arg[4]);
+  if (noise_seed <= 0) error->all(FLERR, "Fix hd/brownian seed {} must be positive", arg[4]);
 
   bool measure_asked = false;
   int iarg = 5;
@@ -96,7 +95,6 @@ void FixHDBrownian::init()
 void FixHDBrownian::reset_dt()
 {
   dt = update->dt;
-  next_step = -1;
 }
 
 /* ----------------------------------------------------------------------
@@ -110,29 +108,21 @@ void FixHDBrownian::reset_dt()
 void FixHDBrownian::initial_integrate(int)
 {
   renew();
+  mass.refresh();
+  std::swap(noise, unit_noise());
+  ++noise_steps;
   accelerate();
-  const double kT = force->boltz * temperature / force->mvv2e;
-  const bigint step = noise_steps++;
-  noise.resize(mass.part().size());
-  next_noise.resize(mass.part().size());
-  if (next_step == step && numbering == mass.numbering())
-    std::swap(noise, next_noise);
-  else
-    mass.matrix().sample(0.5 * kT / dt, seed, step, noise);
-  mass.matrix().sample(0.5 * kT / dt, seed, step + 1, next_noise);
-  next_step = step + 1;
-  numbering = mass.numbering();
 
   // gamma_t is mass over time, as in fix brownian
 
-  balance(noise, next_noise);
+  const double kT = force->boltz * temperature / force->mvv2e;
+  balance(std::sqrt(0.5 * kT / dt), noise, unit_noise());
   drift(dt);
 }
 
 void FixHDBrownian::reset_target(double t_new)
 {
   temperature = t_new;
-  next_step = -1;
   set_measure();
 }
 

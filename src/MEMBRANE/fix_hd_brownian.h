@@ -37,10 +37,8 @@ class FixHDBrownian : public FixHDBase {
 
  private:
   double temperature, gamma_t, dt;
-  bigint seed;
   bool with_measure;
-  Membrane_NS::VertexField noise, next_noise;
-  bigint next_step, numbering;    // what next_noise is for
+  Membrane_NS::VertexField noise;    // of the present step; unit_noise() is that of the next
 
   void set_measure();
 };

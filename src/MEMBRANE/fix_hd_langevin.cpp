@@ -93,6 +93,7 @@ FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
   if (modes()) with_measure = false;
   measure.on = with_measure && (t_start > 0.0 || t_stop > 0.0);
   measure.tally = tally;
+  if (!scaled && !no_damp) noise_seed = seed;
 }
 
 int FixHDLangevin::setmask()
@@ -130,8 +131,7 @@ void FixHDLangevin::reset_dt()
 void FixHDLangevin::initial_integrate(int)
 {
   set_measure();
-  kick(0.5 * dt);
-  drift(0.5 * dt);
+  kick_and_drift(0.5 * dt, 0.5 * dt);
   thermalize();
   drift(0.5 * dt);
 }
@@ -182,7 +182,7 @@ void FixHDLangevin::thermalize()
   } else if (mass.matrix().has_own_friction()) {
     relax_modes(dt, kT_mass, seed);
   } else
-    relax(std::exp(-dt / damp), kT_mass, seed);
+    relax(std::exp(-dt / damp), kT_mass);
   if (tally) energy += before - kinetic();
 }
 

@@ -85,8 +85,7 @@ void FixHDNVE::reset_dt()
 
 void FixHDNVE::initial_integrate(int)
 {
-  kick(dtf);
-  drift(dtv);
+  kick_and_drift(dtf, dtv);
 }
 
 void FixHDNVE::final_integrate()

@@ -66,16 +66,36 @@ LimitMask::LimitMask(const Topology &topology, VertexPart &part, const Solver &s
     ring_start_.push_back(static_cast<int>(ring_.size()));
   }
 
-  // as many passes as Chebyshev's error bound 2 rate^k takes, and their weights
+  find_weights(solver.tolerance);
+  if (solver.direct) factorize(topology);
+}
 
+/* ----------------------------------------------------------------------
+   as many passes as Chebyshev's error bound 2 rate^k takes. In halves, the fourth number begins anew with the
+   pass `half_`, from x_1 of its second right-hand side and x_0 = 0
+------------------------------------------------------------------------- */
+
+void LimitMask::find_weights(double tolerance)
+{
   const double root = std::sqrt(lowest_), rate = (1.0 - root) / (1.0 + root);
   const double sigma = (1.0 + lowest_) / (1.0 - lowest_);
-  omega_.assign(std::max(1, (int) std::ceil(std::log(0.5 * solver.tolerance) / std::log(rate))),
-                2.0);
-  for (size_t k = 1; k < omega_.size(); ++k)
-    omega_[k] = 1.0 / (1.0 - 0.25 * omega_[k - 1] / (sigma * sigma));
+  num_passes_ = std::max(1, (int) std::ceil(std::log(0.5 * tolerance) / std::log(rate)));
+  half_ = (num_passes_ + 1) / 2;
+  tolerance_of_half_ = 2.0 * std::pow(rate, half_);
 
-  if (solver.direct) factorize(topology);
+  double omega = 2.0;
+  for (int k = 1; k < num_passes_; ++k) {
+    omega = 1.0 / (1.0 - 0.25 * omega / (sigma * sigma));
+    weights_.push_back({omega + Quad{}, 1.0 - omega + Quad{}, omega * first_step() + Quad{}});
+  }
+  weights_of_halves_ = weights_;
+  for (int k = half_; k < num_passes_; ++k) {
+    Weights &w = weights_of_halves_[k - 1];
+    const Weights &anew = weights_[k - half_];
+    w.now[3] = anew.now[3];
+    w.before[3] = k == half_ ? 0.0 : anew.before[3];
+    w.step[3] = anew.step[3];
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -133,7 +153,7 @@ void LimitMask::apply(VertexField &x, VertexField &y)
 
 void LimitMask::solve(const VertexField &b, VertexField &x)
 {
-  if (!factor_) return chebyshev(b, x);
+  if (!factor_) return chebyshev(b, x, weights_, [](int, int, int, VertexField &) {});
   x.resize(part_.size());
   for (int i = 0; i < part_.owned; ++i) quad(x[i]) = quad(b[i]) / spoke_[i];
   factor_->solve(x);
@@ -142,8 +162,8 @@ void LimitMask::solve(const VertexField &b, VertexField &x)
 void LimitMask::solve(const VertexField &b, const VertexField &c, VertexField &x, VertexField &y)
 {
   if (!factor_) {
-    chebyshev(b, x);
-    chebyshev(c, y);
+    solve(b, x);
+    solve(c, y);
     return;
   }
   x.resize(part_.size());
@@ -155,6 +175,18 @@ void LimitMask::solve(const VertexField &b, const VertexField &c, VertexField &x
   factor_->solve(x, y);
 }
 
+void LimitMask::solve(VertexField &b, VertexField &x, std::vector<double> &other)
+{
+  chebyshev(b, x, weights_of_halves_, [&](int pass, int first, int last, VertexField &now) {
+    if (pass != half_ - 1) return;
+    for (int i = first; i < last; ++i) {
+      b[i].c[3] = other[i];
+      other[i] = now[i].c[3];
+      now[i].c[3] = first_step() * b[i].c[3];
+    }
+  });
+}
+
 /* ----------------------------------------------------------------------
    Chebyshev's semi-iterative method for L x = b [G. Golub and C. Van Loan, Matrix Computations,
    4th ed., 11.2.8]: x_k+1 = x_k-1 + omega_k+1 (x_k - x_k-1 + (b - L x_k)/theta). It keeps two iterates
@@ -162,58 +194,61 @@ void LimitMask::solve(const VertexField &b, const VertexField &c, VertexField &x
 
    On one rank several passes follow one another through the layers of the mesh, each a layer
    behind the last, so that a vertex is in the cache for all of them. On several ranks the halo travels
-   while the inner vertices are done.
+   while the inner vertices are done. `after` sees each piece of a pass when it is done.
 ------------------------------------------------------------------------- */
 
-void LimitMask::chebyshev_pass(int first, int last, double omega, const VertexField &b,
+void LimitMask::chebyshev_pass(int first, int last, const Weights &weights, const VertexField &b,
                                const VertexField &x, VertexField &y) const
 {
-  const double scale = 2.0 * omega / (1.0 + lowest_);
+  const Weights w = weights;
   const Vector4 *now = x.data(), *rhs = b.data();
   const int *starts = ring_start_.data(), *ring = ring_.data();
   const double *c = centre_.data(), *e = spoke_.data();
   Vector4 *out = y.data();
   for (int i = first; i < last; ++i) {
     const Quad sum = ring_sum(ring + starts[i], starts[i + 1] - starts[i], now);
-    const Quad before = quad(out[i]), here = quad(now[i]);
-    quad(out[i]) =
-        before + omega * (here - before) + scale * (quad(rhs[i]) - c[i] * here - e[i] * sum);
+    const Quad here = quad(now[i]);
+    quad(out[i]) = w.before * quad(out[i]) + w.now * here + w.step * (quad(rhs[i]) - c[i] * here - e[i] * sum);
   }
 }
 
-void LimitMask::chebyshev(const VertexField &b, VertexField &x)
+template <class After>
+void LimitMask::chebyshev(const VertexField &b, VertexField &x, const std::vector<Weights> &weights,
+                          const After &after)
 {
   constexpr int TOGETHER = 8;    // passes: their layers fit into a second-level cache
-  const int n = part_.owned, npasses = static_cast<int>(omega_.size());
-  const double theta = 0.5 * (1.0 + lowest_);
+  const int n = part_.owned;
   previous_.resize(part_.size());
   x.resize(part_.size());
 
   // the iterates take turns in two fields, such that the last is x
 
   VertexField *field[2] = {&x, &previous_};
-  if (npasses % 2) std::swap(field[0], field[1]);
+  if (num_passes_ % 2) std::swap(field[0], field[1]);
   for (int i = 0; i < n; ++i) {
     quad((*field[0])[i]) = Quad{};
-    quad((*field[1])[i]) = quad(b[i]) / theta;
+    quad((*field[1])[i]) = first_step() * quad(b[i]);
   }
+  const auto pass = [&](int k, int first, int last) {
+    VertexField &next = *field[(k + 1) % 2];
+    chebyshev_pass(first, last, weights[k - 1], b, *field[k % 2], next);
+    after(k, first, last, next);
+  };
 
   if (part_.size() > n) {
-    for (int k = 1; k < npasses; ++k) {
-      VertexField &now = *field[k % 2], &next = *field[(k + 1) % 2];
-      part_.begin_halo(now);
-      chebyshev_pass(part_.layers[1], n, omega_[k], b, now, next);
-      part_.end_halo(now);
-      chebyshev_pass(0, part_.layers[1], omega_[k], b, now, next);
+    for (int k = 1; k < num_passes_; ++k) {
+      part_.begin_halo(*field[k % 2]);
+      pass(k, part_.layers[1], n);
+      part_.end_halo(*field[k % 2]);
+      pass(k, 0, part_.layers[1]);
     }
   } else {
     const int nlayers = static_cast<int>(part_.layers.size()) - 1;
-    for (int k = 1; k < npasses; k += TOGETHER) {
-      const int depth = std::min(TOGETHER, npasses - k);
+    for (int k = 1; k < num_passes_; k += TOGETHER) {
+      const int depth = std::min(TOGETHER, num_passes_ - k);
       for (int front = 0; front < nlayers + depth - 1; ++front)
         for (int j = std::max(0, front - nlayers + 1); j < std::min(depth, front + 1); ++j)
-          chebyshev_pass(part_.layers[front - j], part_.layers[front - j + 1], omega_[k + j], b,
-                         *field[(k + j) % 2], *field[(k + j + 1) % 2]);
+          pass(k + j, part_.layers[front - j], part_.layers[front - j + 1]);
     }
   }
 }

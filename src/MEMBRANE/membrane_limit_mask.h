@@ -32,7 +32,8 @@ namespace Membrane_NS {
     number of passes known beforehand, without inner products; a factorization of S solves it, too.
     L^T x = b is L (e x) = e b.
 
-    Fields have an entry for each vertex of the part; only owned entries are read and written. */
+    Fields have an entry for each vertex of the part; only owned entries are read and written. The fourth
+    number of a vertex is one like the others here, and is solved for at no cost. */
 class LimitMask {
  public:
   struct Solver {
@@ -59,8 +60,15 @@ class LimitMask {
   void solve(const VertexField &b, VertexField &x);
   /// The same for two, y = L^-1 c.
   void solve(const VertexField &b, const VertexField &c, VertexField &x, VertexField &y);
+  /** x = L^-1 b, and in the fourth number two solutions one after the other, each in half of the passes: the
+      right-hand side is that of b first, whose solution is put into `other`, then what was in `other`,
+      whose solution is in x. Not with the direct solver. */
+  void solve(VertexField &b, VertexField &x, std::vector<double> &other);
+  /// The residual of these two, relative to the right-hand side.
+  double tolerance_of_half() const { return tolerance_of_half_; }
+  bool is_direct() const { return factor_ != nullptr; }
   /// Passes over the mesh that a solution takes.
-  int passes() const { return factor_ ? 1 : static_cast<int>(omega_.size()); }
+  int passes() const { return factor_ ? 1 : num_passes_; }
 
   double memory_usage() const;
 
@@ -69,14 +77,23 @@ class LimitMask {
   std::vector<int> ring_start_, ring_;    // of owned vertices, in local numbers
   std::vector<double> centre_, spoke_;
   double lowest_;
-  std::vector<double> omega_;    // of Chebyshev's passes
+  // of Chebyshev's passes after the first, for each of the four numbers: x_k+1 = now x_k + before x_k-1 + step (b - L x_k)
+  struct Weights {
+    Quad now, before, step;
+  };
+  int num_passes_, half_;
+  double tolerance_of_half_;
+  std::vector<Weights> weights_, weights_of_halves_;
   VertexField previous_;
   std::unique_ptr<PartCholesky> factor_;    // of S, if direct
 
   void factorize(const Topology &topology);
-  void chebyshev(const VertexField &b, VertexField &x);
-  void chebyshev_pass(int first, int last, double omega, const VertexField &b, const VertexField &x,
+  void find_weights(double tolerance);
+  template <class After>
+  void chebyshev(const VertexField &b, VertexField &x, const std::vector<Weights> &, const After &);
+  void chebyshev_pass(int first, int last, const Weights &, const VertexField &b, const VertexField &x,
                       VertexField &y) const;
+  double first_step() const { return 2.0 / (1.0 + lowest_); }
 };
 
 /** A lower bound, not far from the least, of the eigenvalues of the limit mask on a mesh without

@@ -44,12 +44,11 @@ std::array<double, 6> MassOperator::kinetic(const VertexField &v)
 
 /* ---------------------------------------------------------------------- */
 
-void MassOperator::relax(double keep, double kT, uint64_t seed, uint64_t step, VertexField &v)
+void MassOperator::solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step,
+                                    VertexField &z)
 {
-  noise_.resize(part_.size());
-  sample((1.0 - keep * keep) * kT, seed, step, noise_);
-  for (int i = 0; i < part_.owned; ++i)
-    for (int k = 0; k < 3; ++k) v[i].c[k] = keep * v[i].c[k] + noise_[i].c[k];
+  sample(1.0, seed, step, z);
+  solve(p, v);    // last, so that passes() are its own
 }
 
 void MassOperator::relax(const std::vector<double> &, double, uint64_t, uint64_t, VertexField &)
@@ -81,5 +80,5 @@ double MassOperator::residual(const VertexField &p, const VertexField &v)
 
 double MassOperator::memory_usage() const
 {
-  return sizeof(Vector4) * (noise_.capacity() + momentum_.capacity());
+  return sizeof(Vector4) * momentum_.capacity();
 }

@@ -29,19 +29,18 @@ PointMasses::PointMasses(const VertexMasses &vertices) : MassOperator(vertices.p
 {
   for (int i = 0; i < part_.owned; ++i) {
     mass_.push_back(vertices.masses[part_.vertices[i]]);
+    unit_speed_.push_back(1.0 / std::sqrt(mass_.back()));
     label_.push_back(vertices.labels[part_.vertices[i]]);
   }
 }
 
 void PointMasses::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
 {
-  const CounterRandom random(seed, step);
   const double root = std::sqrt(kT);
   w_.resize(part_.size());
+  CounterRandom(seed, step).normals(label_, w_);
   for (int i = 0; i < part_.owned; ++i) {
-    const auto normal = random.normals(label_[i]);
-    const double spread = root / std::sqrt(mass_[i]);
-    for (int k = 0; k < 3; ++k) w_[i].c[k] = spread * normal[k];
+    quad(w_[i]) *= root * unit_speed_[i];
     w_[i].c[3] = 0.0;
   }
   from_points(w_, v);
@@ -50,19 +49,19 @@ void PointMasses::sample(double kT, uint64_t seed, uint64_t step, VertexField &v
 void PointMasses::relax(const std::vector<double> &keep, double kT, uint64_t seed, uint64_t step,
                         VertexField &v)
 {
-  const CounterRandom random(seed, step);
   w_.resize(part_.size());
+  noise_.resize(part_.size());
+  CounterRandom(seed, step).normals(label_, noise_);
   to_points(v, w_);
   for (int i = 0; i < part_.owned; ++i) {
-    const auto normal = random.normals(label_[i]);
-    const double spread = std::sqrt((1.0 - keep[i] * keep[i]) * kT / mass_[i]);
-    for (int k = 0; k < 3; ++k) w_[i].c[k] = keep[i] * w_[i].c[k] + spread * normal[k];
+    const double spread = std::sqrt((1.0 - keep[i] * keep[i]) * kT) * unit_speed_[i];
+    for (int k = 0; k < 3; ++k) w_[i].c[k] = keep[i] * w_[i].c[k] + spread * noise_[i].c[k];
   }
   from_points(w_, v);
 }
 
 double PointMasses::memory_usage() const
 {
-  return MassOperator::memory_usage() + sizeof(double) * mass_.capacity() +
-      sizeof(uint64_t) * label_.capacity() + sizeof(Vector4) * w_.capacity();
+  return MassOperator::memory_usage() + sizeof(double) * (mass_.capacity() + unit_speed_.capacity()) +
+      sizeof(uint64_t) * label_.capacity() + sizeof(Vector4) * (w_.capacity() + noise_.capacity());
 }

@@ -33,14 +33,14 @@ class PointMasses : public MassOperator {
  protected:
   explicit PointMasses(const VertexMasses &);
 
-  std::vector<double> mass_;    // of owned vertices
+  std::vector<double> mass_, unit_speed_;    // of owned vertices, and 1/sqrt(mass)
+  std::vector<uint64_t> label_;
   /// w = A v and v = A^-1 w; w has an entry for each vertex of the part.
   virtual void to_points(const VertexField &v, VertexField &w) = 0;
   virtual void from_points(const VertexField &w, VertexField &v) = 0;
 
  private:
-  std::vector<uint64_t> label_;
-  VertexField w_;
+  VertexField w_, noise_;
 };
 
 }    // namespace Membrane_NS

@@ -289,11 +289,11 @@ void SamplingMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &
   const int n = static_cast<int>(all_.size());
   const CounterRandom random(seed, step);
   const double root = std::sqrt(kT);
+  random.normals(labels_, all_);
   for (int i = 0; i < n; ++i) {
-    const auto normal = random.normals(labels_[i]);
-    for (int k = 0; k < 3; ++k) all_[i].c[k] = root * normal[k];
+    quad(all_[i]) *= root;
+    along_[i] = all_[i].c[3];
     all_[i].c[3] = 0.0;
-    along_[i] = root * normal[3];
   }
   normal_factor_->colour(along_);
   tangent_factor_->colour(all_);

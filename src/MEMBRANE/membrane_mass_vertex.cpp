@@ -17,6 +17,8 @@
 
 #include "membrane_mass_vertex.h"
 
+#include "membrane_random.h"
+
 #include <algorithm>
 
 using namespace Membrane_NS;
@@ -27,6 +29,9 @@ VertexMass::VertexMass(const VertexMasses &vertices, const Settings &settings) :
     PointMasses(vertices), mask_(vertices.topology, part_, {settings.direct, settings.tolerance})
 {
 }
+
+// noise this exact may travel along with a solution: other errors of a simulation are far larger
+static constexpr double GOOD_NOISE = 1.0e-4;
 
 // halo values of w are left to mask_
 
@@ -68,8 +73,43 @@ void VertexMass::solve(const VertexField &p, VertexField &v)
   passes_ = 2 * mask_.passes();
 }
 
+/* ----------------------------------------------------------------------
+   L^-1 D^-1/2 of normal numbers: x in the fourth number of the first solution, y and z in that of the second.
+   Chebyshev's passes are a polynomial P of L, and in half of them |1 - L P| is below GOOD_NOISE, so what
+   P D^-1 P^T has too much or too little is below twice as much
+------------------------------------------------------------------------- */
+
+void VertexMass::solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step,
+                                  VertexField &z)
+{
+  if (mask_.is_direct() || mask_.tolerance_of_half() > GOOD_NOISE)
+    return MassOperator::solve_with_noise(p, v, seed, step, z);
+  const int n = part_.owned;
+  work_.resize(part_.size());
+  other_.resize(n);
+  CounterRandom(seed, step).normals(label_, z);
+  for (int i = 0; i < n; ++i) {
+    quad(work_[i]) = mask_.spoke(i) * quad(p[i]);
+    work_[i].c[3] = unit_speed_[i] * z[i].c[0];
+  }
+  mask_.solve(work_, v);
+  for (int i = 0; i < n; ++i) {
+    z[i].c[0] = v[i].c[3];
+    quad(work_[i]) = quad(v[i]) / (mask_.spoke(i) * mass_[i]);
+    work_[i].c[3] = unit_speed_[i] * z[i].c[1];
+    other_[i] = unit_speed_[i] * z[i].c[2];
+  }
+  mask_.solve(work_, v, other_);
+  for (int i = 0; i < n; ++i) {
+    z[i].c[1] = other_[i];
+    z[i].c[2] = v[i].c[3];
+    v[i].c[3] = 0.0;
+  }
+  passes_ = 2 * mask_.passes();
+}
+
 double VertexMass::memory_usage() const
 {
   return PointMasses::memory_usage() + mask_.memory_usage() +
-      sizeof(Vector4) * (work_.capacity() + scratch_.capacity());
+      sizeof(Vector4) * (work_.capacity() + scratch_.capacity()) + sizeof(double) * other_.capacity();
 }

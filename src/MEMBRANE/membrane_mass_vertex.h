@@ -26,11 +26,14 @@ class VertexMass : public PointMasses {
   VertexMass(const VertexMasses &, const Settings &);
   void multiply(const VertexField &v, VertexField &p) override;
   void solve(const VertexField &p, VertexField &v) override;
+  void solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step,
+                        VertexField &z) override;
   double memory_usage() const override;
 
  private:
   LimitMask mask_;
   VertexField work_, scratch_;
+  std::vector<double> other_;
 
   void to_points(const VertexField &v, VertexField &w) override;
   void from_points(const VertexField &w, VertexField &v) override { mask_.solve(w, v); }

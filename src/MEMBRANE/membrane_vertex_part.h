@@ -46,7 +46,7 @@ class VertexPart {
 
   // === What ranks exchange
 
-  /// Collective: copy x, y, z of owned vertices to where they are halo.
+  /// Collective: copy the four numbers of owned vertices to where they are halo.
   void fill_halo(VertexField &field)
   {
     begin_halo(field);

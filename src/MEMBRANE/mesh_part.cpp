@@ -90,12 +90,10 @@ void MeshPart::find_halo(const DistributedMesh &mesh, int rings)
   vertices.insert(vertices.end(), halo->vertices().begin(), halo->vertices().end());
 }
 
-// the fourth number of a vertex is there for alignment only
-
 void MeshPart::begin_halo(VertexField &field)
 {
   auto *values = reinterpret_cast<double *>(field.data());
-  if (halo) halo->begin(values, values + 4 * (size_t) owned, 3, 4);
+  if (halo) halo->begin(values, values + 4 * (size_t) owned, 4, 4);
 }
 
 void MeshPart::end_halo(VertexField &)

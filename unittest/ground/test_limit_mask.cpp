@@ -112,6 +112,49 @@ TEST(LimitMask, TwoSolvesAtOnceAreTheSameAsOneAfterTheOther)
   }
 }
 
+TEST(LimitMask, TheFourthNumberIsSolvedForTwiceInHalfOfThePassesEach)
+{
+  for (double tolerance : {1e-10, 1e-11, 1e-4})    // an odd number of passes and an even one
+    for (int n : {3, 5, 6, 12}) {
+      const TriangleMesh mesh = loop_refine(bipyramid(n));
+      Surface surface(mesh, false, tolerance), direct(mesh, true);
+      const int size = surface.size();
+      VertexField b = rough(size), y(size), z(size), x, xs;
+      std::vector<double> other(size);
+      for (int i = 0; i < size; ++i) {
+        b[i].c[3] = std::sin(3.0 * i);
+        other[i] = std::cos(5.0 * i);
+        y[i] = {{b[i].c[3], other[i], 0.0, 0.0}};
+      }
+      direct.mask.solve(y, z);
+      surface.mask.solve(b, xs);
+      surface.mask.solve(b, x, other);
+
+      // the same as alone in as many passes
+
+      const double root = std::sqrt(surface.mask.spectrum()[0]), rate = (1.0 - root) / (1.0 + root);
+      const int passes = surface.mask.passes(), half = (passes + 1) / 2;
+      VertexField first, second;
+      Surface alone(mesh, false, 2.001 * std::pow(rate, half)), after(mesh, false, 2.001 * std::pow(rate, passes + 1 - half));
+      alone.mask.solve(y, first);
+      after.mask.solve(y, second);
+      EXPECT_EQ(alone.mask.passes(), half);
+      for (int i = 0; i < size; ++i) {
+        EXPECT_NEAR(other[i], first[i].c[0], 1e-14);
+        EXPECT_NEAR(x[i].c[3], second[i].c[1], 1e-14);
+      }
+
+      double error = 0.0, square = 0.0;
+      for (int i = 0; i < size; ++i) {
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(x[i].c[k], xs[i].c[k]);
+        error += std::pow(other[i] - z[i].c[0], 2) + std::pow(x[i].c[3] - z[i].c[1], 2);
+        square += std::pow(z[i].c[0], 2) + std::pow(z[i].c[1], 2);
+      }
+      EXPECT_LT(std::sqrt(error / square), 4.0 * surface.mask.tolerance_of_half()) << "valence " << n;
+      EXPECT_LT(surface.mask.tolerance_of_half(), 2.0 * std::sqrt(tolerance));
+    }
+}
+
 TEST(LimitMask, BoundsOfTheSpectrumHoldAtEveryValence)
 {
   for (int n = 3; n <= 16; ++n) {

@@ -113,6 +113,49 @@ TEST(CounterRandom, NormalsHaveTheMomentsOfTheNormalDistribution)
   EXPECT_NEAR(neighbours / n, 0.0, 1.3e-2);
 }
 
+TEST(CounterRandom, NormalsOfManyLabelsAreThoseOfEachAlone)
+{
+  const CounterRandom random(815, 1ULL << 33);
+  for (int n : {1, 2, 7, 64, 65, 1001}) {
+    std::vector<uint64_t> labels;
+    for (int i = 0; i < n; ++i) labels.push_back(i % 3 ? 7 * i : (1ULL << 40) + i);
+    VertexField z(n);
+    random.normals(labels, z);
+    for (int i = 0; i < n; ++i) {
+      const auto alone = random.normals(labels[i]);
+      for (int k = 0; k < 4; ++k) ASSERT_NEAR(z[i].c[k], alone[k], 1e-14) << "label " << i << " of " << n;
+    }
+  }
+}
+
+TEST(CounterRandom, NormalsAreRightToTheLastBitsFromTheSmallestNumberToTheLargest)
+{
+  // around all eighths of a turn and powers of two, and in between
+  std::vector<uint64_t> numbers;
+  for (uint64_t eighth = 0; eighth <= 8; ++eighth)
+    for (int64_t d = -3; d <= 3; ++d) numbers.push_back(((eighth << 29) + d) & 0xffffffff);
+  for (int bit = 0; bit < 32; ++bit)
+    for (int64_t d = -2; d <= 2; ++d) numbers.push_back(((1ULL << bit) + d) & 0xffffffff);
+  for (uint64_t i = 1; i <= 2000; ++i) numbers.push_back(i * 2654435761 & 0xffffffff);
+  const double two_pi = 6.283185307179586476925;
+  for (size_t i = 0; i + 4 <= numbers.size(); i += 4) {
+    CounterRandom::Words word[4];
+    Quad z[4];
+    for (int l = 0; l < 4; ++l)
+      for (int k = 0; k < 4; ++k)    // the last of a large radius, where an error in the angle shows
+        word[k][l] = k == 2 ? l : numbers[i + l];
+    CounterRandom::box_muller(word, z);
+    for (int l = 0; l < 4; ++l)
+      for (int k = 0; k < 4; k += 2) {
+        const long double u = (word[k][l] + 0.5L) * 0x1.0p-32L;
+        const long double radius = std::sqrt(-2.0L * std::log(u));
+        const double angle = two_pi * (word[k + 1][l] + 0.5) * 0x1.0p-32;
+        EXPECT_NEAR(z[k][l], radius * std::cos(angle), 2e-15 * radius) << word[k][l] << " " << word[k + 1][l];
+        EXPECT_NEAR(z[k + 1][l], radius * std::sin(angle), 2e-15 * radius) << word[k][l] << " " << word[k + 1][l];
+      }
+  }
+}
+
 TEST(MassOperator, KindsAreFoundByTheirNames)
 {
   for (MassKind kind : KINDS) {
@@ -298,6 +341,30 @@ TEST(MassOperator, SamplesHaveEquipartition)
   }
 }
 
+TEST(MassOperator, NoiseThatComesWithASolutionIsASampleAndLeavesTheSolutionAlone)
+{
+  for (MassKind kind : KINDS)
+    for (double tolerance : {1e-10, 1e-6}) {
+      Body body(icosphere(3, 1.0), kind, false, tolerance);
+      const int n = body.size();
+      const VertexField p = rough(n);
+      VertexField v(n), z(n), alone(n), sample(n);
+      body.matrix->solve_with_noise(p, v, 12, 34, z);
+      const int passes = body.matrix->passes();
+      body.matrix->solve(p, alone);
+      EXPECT_EQ(passes, body.matrix->passes());
+      body.matrix->sample(1.0, 12, 34, sample);
+      double square = 0.0, difference = 0.0;
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_NEAR(v[i].c[k], alone[i].c[k], 1e-14 * n);
+          difference += std::pow(z[i].c[k] - sample[i].c[k], 2);
+          square += std::pow(sample[i].c[k], 2);
+        }
+      EXPECT_LT(difference, 1e-10 * square);
+    }
+}
+
 TEST(MassOperator, OnlyPointMassesHaveFrictionPerVertex)
 {
   for (MassKind kind : KINDS) {
@@ -318,15 +385,19 @@ TEST(MassOperator, FrictionAndNoiseKeepEquilibriumAndForgetExponentially)
       Body body(icosphere(1, 1.0), kind);
       const int n = body.size(), steps = 4000;
       const double keep = 0.8;
-      VertexField v(n), before, p(n);
+      VertexField v(n), before, p(n), a(n), z(n);
       body.matrix->sample(1.0, 5, 0, v);
       double energy = 0, memory = 0;
       for (int s = 1; s <= steps; ++s) {
         before = v;
-        if (scaled)
+        if (scaled) {
           body.matrix->relax(std::vector<double>(n, keep), 1.0, 5, s, v);
-        else
-          body.matrix->relax(keep, 1.0, 5, s, v);
+        } else {
+          body.matrix->solve_with_noise(p, a, 5, s, z);
+          for (int i = 0; i < n; ++i)
+            for (int k = 0; k < 3; ++k)
+              v[i].c[k] = keep * v[i].c[k] + std::sqrt(1.0 - keep * keep) * z[i].c[k];
+        }
         body.matrix->multiply(v, p);
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < 3; ++k) {
