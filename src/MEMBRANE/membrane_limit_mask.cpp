@@ -27,6 +27,8 @@
 
 using namespace Membrane_NS;
 
+static const double C_OF_SIX = limit_mask_centre(6);
+
 /* ---------------------------------------------------------------------- */
 
 double Membrane_NS::limit_mask_lowest(const Topology &topology)
@@ -62,7 +64,7 @@ LimitMask::LimitMask(const Topology &topology, VertexPart &part, const Solver &s
     const int v = part.vertices[i], n = topology.valence(v);
     centre_.push_back(limit_mask_centre(n));
     spoke_.push_back((1.0 - centre_.back()) / n);
-    for (int w : topology.ring(v)) ring_.push_back(local.at(w));
+    for (int w : topology.ring(v)) ring_.push_back(sizeof(Vector4) * local.at(w));
     ring_start_.push_back(static_cast<int>(ring_.size()));
   }
 
@@ -127,14 +129,23 @@ void LimitMask::factorize(const Topology &topology)
 
 namespace {
 
-// sum over a ring; nearly all have six vertices
-inline Quad ring_sum(const int *ring, int n, const Vector4 *x)
+const Quad &at(const Vector4 *x, uint32_t place)
 {
-  if (n == 6)
-    return (quad(x[ring[0]]) + quad(x[ring[1]])) + (quad(x[ring[2]]) + quad(x[ring[3]])) +
-        (quad(x[ring[4]]) + quad(x[ring[5]]));
+  return *reinterpret_cast<const Quad *>(reinterpret_cast<const char *>(x) + place);
+}
+
+// sums over rings; nearly all have six vertices
+
+Quad sum_of_six(const uint32_t *ring, const Vector4 *x)
+{
+  return (at(x, ring[0]) + at(x, ring[1])) + (at(x, ring[2]) + at(x, ring[3])) + (at(x, ring[4]) + at(x, ring[5]));
+}
+
+Quad ring_sum(const uint32_t *ring, int n, const Vector4 *x)
+{
+  if (n == 6) return sum_of_six(ring, x);
   Quad sum = {};
-  for (int j = 0; j < n; ++j) sum += quad(x[ring[j]]);
+  for (int j = 0; j < n; ++j) sum += at(x, ring[j]);
   return sum;
 }
 
@@ -202,13 +213,22 @@ void LimitMask::chebyshev_pass(int first, int last, const Weights &weights, cons
 {
   const Weights w = weights;
   const Vector4 *now = x.data(), *rhs = b.data();
-  const int *starts = ring_start_.data(), *ring = ring_.data();
-  const double *c = centre_.data(), *e = spoke_.data();
+  const int *starts = ring_start_.data();
+  const uint32_t *ring = ring_.data() + starts[first];
   Vector4 *out = y.data();
+
+  // of y = before y + here x + around (the ring's x) + step b
+
+  const Quad here_of_six = w.now - C_OF_SIX * w.step, around_of_six = (C_OF_SIX - 1.0) / 6.0 * w.step;
   for (int i = first; i < last; ++i) {
-    const Quad sum = ring_sum(ring + starts[i], starts[i + 1] - starts[i], now);
-    const Quad here = quad(now[i]);
-    quad(out[i]) = w.before * quad(out[i]) + w.now * here + w.step * (quad(rhs[i]) - c[i] * here - e[i] * sum);
+    const int n = starts[i + 1] - starts[i];
+    const Quad known = w.before * quad(out[i]) + w.step * quad(rhs[i]);
+    if (n == 6)
+      quad(out[i]) = known + here_of_six * quad(now[i]) + around_of_six * sum_of_six(ring, now);
+    else
+      quad(out[i]) = known + (w.now - centre_[i] * w.step) * quad(now[i]) -
+          spoke_[i] * w.step * ring_sum(ring, n, now);
+    ring += n;
   }
 }
 
@@ -258,7 +278,7 @@ void LimitMask::chebyshev(const VertexField &b, VertexField &x, const std::vecto
 double LimitMask::memory_usage() const
 {
   return sizeof(Vector4) * previous_.capacity() +
-      sizeof(int) * (ring_.capacity() + ring_start_.capacity()) +
+      sizeof(int) * ring_start_.capacity() + sizeof(uint32_t) * ring_.capacity() +
       sizeof(double) * (centre_.capacity() + spoke_.capacity()) +
       (factor_ ? factor_->memory_usage() : 0.0);
 }

@@ -19,6 +19,7 @@
 #include "membrane_vertex_part.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -74,7 +75,8 @@ class LimitMask {
 
  private:
   VertexPart &part_;
-  std::vector<int> ring_start_, ring_;    // of owned vertices, in local numbers
+  std::vector<int> ring_start_;    // of owned vertices
+  std::vector<uint32_t> ring_;     // of each its neighbours, as places in a field counted in bytes
   std::vector<double> centre_, spoke_;
   double lowest_;
   // of Chebyshev's passes after the first, for each of the four numbers: x_k+1 = now x_k + before x_k-1 + step (b - L x_k)
