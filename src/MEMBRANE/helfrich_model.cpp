@@ -262,6 +262,12 @@ void HelfrichModel::load(const std::vector<FaceGroup> &groups, FaceModel &model)
   for (HelfrichTerm *term : present) term->localize(groups, model);
 }
 
+void HelfrichModel::describe_faces(const std::vector<FaceGroup> &groups, FaceModel &model)
+{
+  load(groups, model);
+  stale = true;    // terms keep what they load
+}
+
 /* ----------------------------------------------------------------------
    first pass, and what terms make of it: derivatives by totals act as tension, pressure and moment
 ------------------------------------------------------------------------- */

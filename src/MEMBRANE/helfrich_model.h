@@ -49,12 +49,16 @@ class HelfrichModel : protected Pointers {
     return bending->spontaneous_curvature(type) + lipids->lipids().bilayer_curvature(type);
   }
   const HelfrichLipids &composition() const { return lipids->lipids(); }
+  /// Coefficients of faces as they are now, for others than this; the next step takes its own anew.
+  void describe_faces(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &);
 
   // === Life cycle
 
   /// Collective; call from init(). Stops if atoms and coefficients do not fit.
   void init();
   const DistributedMesh &mesh() const { return *scene.mesh; }
+  /// Up to date after init() if some membrane has lipids.
+  const MeshOrigins &origins() const { return scene.origins; }
 
   // === A step
 

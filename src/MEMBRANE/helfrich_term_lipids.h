@@ -34,6 +34,13 @@ class HelfrichTermLipids : public HelfrichTerm {
   bool acts_on(int type) const override { return said.of(type).given; }
   void archive_coefficients(RestartArchive &file) override { said.archive(file); }
 
+  Needs needs() const override
+  {
+    Needs needs;
+    needs.origins = true;    // of lipids on faces, which fix hd/lipids keeps
+    return needs;
+  }
+
   void choose(const HelfrichScene &) override;
   void localize(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) override;
   void act_on_faces(HelfrichScene &) override;

@@ -17,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <numeric>
 
 using namespace Membrane_TEST;
@@ -224,6 +225,50 @@ LipidExchange on_mesh(const TriangleMesh &mesh, std::vector<ExchangedKind> kinds
   const int nfaces = static_cast<int>(mesh.faces.size());
   return {std::move(kinds), std::move(lipids), face_edges(topology_of(mesh)), std::vector<int>(nfaces, 0),
           no_curvature(nfaces)};
+}
+
+/** Faces of a tube beside those of a plane, few lipids with a curvature c of their own: there is a factor of
+    exp(kc a c 2H/(2 kT)) more of them for each of the others where the surface has the curvature 2H. */
+TEST(LipidExchange, RareLipidsPreferTheTubeByTheirBoltzmannFactor)
+{
+  const int half = 200, n = 10;
+  const double kc = 20.0, H2 = 0.5, area = n * 1.0, c = 0.1, kT = 1.0;
+  FaceLipids lipids(2, {std::vector<int>(2 * half, n), std::vector<int>(2 * half, 0)});
+  for (int i = 0; i < lipids.size(0); i += 20) lipids.kind(0, i) = 1;
+  LipidExchange exchange({{1.0, 0.0}, {1.0, c}}, std::move(lipids), {}, std::vector<int>(2 * half, 0),
+                         no_curvature(2 * half));
+  std::vector<FaceBending> bending(half, bilayer_bending(kc, area, H2 * area));
+  bending.resize(2 * half, bilayer_bending(kc, area, 0.0));
+  exchange.set_bending(bending);
+  double sum[2][2] = {};
+  const int samples = how_many(1000, 10000);
+  for (int i = -20; i < samples; ++i) {
+    exchange.swap_anywhere(0, 20000, kT, CounterRandom(23, i + 20));
+    if (i < 0) continue;
+    for (int f = 0; f < 2 * half; ++f) {
+      int numbers[2] = {};
+      exchange.lipids().count(0, f, numbers);
+      for (int k = 0; k < 2; ++k) sum[f < half][k] += numbers[k];
+    }
+  }
+  const double ratio = (sum[1][1] / sum[1][0]) / (sum[0][1] / sum[0][0]), expected = std::exp(kc * c * H2 / (2.0 * kT));
+  std::cout << "tube over plane " << ratio << ", expected " << expected << "\n";
+  EXPECT_NEAR(ratio / expected, 1.0, 0.02);
+}
+
+TEST(LipidExchange, BendingOfTwoLeafletsIsTheirs)
+{
+  // kc/4 of each neutral surface, less what no lipid changes
+  const double kc = 12.0, A[2] = {1.3, 0.8}, M[2] = {0.7, -0.4}, C[2] = {0.3, -0.6};
+  LipidExchange exchange({{1.0, C[0]}, {1.0, C[1]}}, in_order(2, {{{1}, {1}}}, {0}, {1}), {}, {0}, no_curvature(1));
+  exchange.set_bending({leaflet_bending(kc, {A[0], A[1]}, {M[0], M[1]})});
+  double expected = 0.0;
+  for (int l = 0; l < 2; ++l) expected += kc / 4.0 * (-2.0 * C[l] * M[l] + C[l] * C[l] * A[l]);
+  EXPECT_NEAR(exchange.energy(), expected, 1e-14);
+  // kc/2 (2H - c0)^2 with c0 = (C - C')/2
+  exchange.set_bending({bilayer_bending(kc, A[0], M[0])});
+  const double c0 = 0.5 * (C[0] - C[1]);
+  EXPECT_NEAR(exchange.energy(), kc / 2.0 * (-2.0 * c0 * M[0] + c0 * c0 * A[0]), 1e-14);
 }
 
 TEST(LipidExchange, KeepsAllNumbersOverTenMillionAttemptsAndTheSumOfItsEnergies)
