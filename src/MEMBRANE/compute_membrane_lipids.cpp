@@ -19,6 +19,7 @@
 
 #include "atom.h"
 #include "error.h"
+#include "fix.h"
 #include "fmt/format.h"
 #include "memory.h"
 #include "mesh_lipid_places.h"
