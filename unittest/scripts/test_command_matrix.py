@@ -48,7 +48,7 @@ velocity        points create 1.0 88
 pair_style      helfrich
 """
 COEFF = ("pair_coeff 1 1 10.0 0.1 kg -3.0 tension 0.2 area 30 init area/difference 5 init thickness 0.1 area/local 40 "
-         "volume 20 init pressure 0.1 regularize 1.0\n")
+         "volume 20 init pressure 0.1 regularize 1.0 leaflets 0.01 &\nlipids NULL library A 0.65 0.2 outer A 1 inner A 1\n")
 FIXES = """
 fix             i1 nve hd/nve
 fix             i2 langevin hd/langevin 1.0 1.0 1.0 4711
