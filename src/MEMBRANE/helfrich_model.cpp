@@ -93,9 +93,11 @@ void HelfrichModel::set_coefficients(const std::vector<int> &types, int narg, ch
   int iarg = bending->parse(types, HelfrichWords(lmp, narg, arg, keywords));
   while (iarg < narg) {
     const HelfrichWords words(lmp, narg - iarg, arg + iarg, keywords);
-    if (!words.at_end(0))
-      error->all(FLERR, "Unknown pair_coeff helfrich keyword {}; known are: {}", words.keyword(),
-                 fmt::format("{}", fmt::join(keywords, ", ")));
+    if (!words.at_end(0)) {
+      std::string known;
+      for (const std::string &keyword : keywords) known += (known.empty() ? "" : ", ") + keyword;
+      error->all(FLERR, "Unknown pair_coeff helfrich keyword {}; known are: {}", words.keyword(), known);
+    }
     iarg += find_term(words.keyword())->parse(types, words);
   }
 }

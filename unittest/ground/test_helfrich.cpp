@@ -31,12 +31,14 @@ const Moduli TENSION = {0.0, 0.0, 0.0, 1.0, 0.0};
 const Moduli PRESSURE = {0.0, 0.0, 0.0, 0.0, 1.0};
 const Moduli MOMENT = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
 const Moduli EVERYTHING = {1.3, -0.7, 0.6, 0.9, -1.1, 0.4};
+const Moduli LEAFLETS = {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 5e-4, 0.7, -0.4};    // thin: corners are sharp
+const Moduli WITH_LEAFLETS = {1.3, -0.7, 0.6, 0.9, -1.1, 0.4, 1e-3, -0.5, 0.8};
 constexpr double STEP = 1e-3;    // of numerical derivatives, lengths being of order 1
 
 const std::vector<std::pair<std::string, Moduli>> TERMS = {
     {"bending", BENDING}, {"bending with c0", SPONTANEOUS}, {"gauss", GAUSS},
     {"tension", TENSION}, {"pressure", PRESSURE},           {"moment", MOMENT},
-    {"everything", EVERYTHING}};
+    {"everything", EVERYTHING}, {"leaflets", LEAFLETS}, {"everything with leaflets", WITH_LEAFLETS}};
 
 double bending(const TriangleMesh &mesh, Quadrature quadrature, double c0 = 0.0)
 {
@@ -281,6 +283,19 @@ TEST(PeriodicSheet, HasTheVectorAreaOfItsBox)
 }
 
 // === Forces
+
+TEST(Forces, OfThickLeafletsAreMinusTheGradient)
+{
+  double worst = 0.0;
+  for (Moduli moduli : {LEAFLETS, WITH_LEAFLETS})
+    for (double distance : {0.05, 0.15}) {
+      moduli.leaflet = distance;
+      Scene scene(test_mesh("bumpy_icosphere_2"), Quadrature::SIX, {moduli});
+      worst = std::max(worst, force_error(scene, {0, 17, 80}));
+    }
+  EXPECT_LT(worst, 1e-7);
+  RecordProperty("worst_error", scientific(worst));
+}
 
 TEST(Forces, AreMinusTheGradientOfEachTermForEveryValence)
 {

@@ -98,6 +98,7 @@ SCENES = {
 
 # pair_coeff of types 1 and 2; of which every term has its forces
 GLOBAL = "area 70.0 9.0 area/local 40.0 area/difference 8.0 2.0 thickness 0.1 volume 60.0 3.0 pressure 1.5"
+LIPIDS = "library A 0.65 0.4 library B 0.31 -1.1"
 TERMS = {
     "bending": ("10.0 0.0", "15.0 0.0"),
     "spontaneous curvature": ("10.0 0.8", "15.0 -0.4"),
@@ -110,7 +111,10 @@ TERMS = {
     "pressure": ("0.0 0.0 pressure 1.5",) * 2,
     "regularize": ("10.0 0.0 regularize 0.2", "15.0 0.0 regularize 0.4"),
     "regularize conformal": ("10.0 0.0 regularize 0.2 conformal", "15.0 0.0 regularize 0.4 conformal"),
-    "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 {GLOBAL}", f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
+    "leaflets": ("10.0 0.8 leaflets 0.01", "15.0 -0.4 leaflets 0.02"),
+    "lipids": (f"10.0 0.8 lipids NULL {LIPIDS} outer A 3 B 1 inner A 1", "15.0 0.0"),
+    "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 leaflets 0.01 lipids NULL {LIPIDS} outer A 3 B 1 inner A 1 {GLOBAL}",
+                  f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
 }
 NEEDS_CLOSED = ("volume", "pressure")
 

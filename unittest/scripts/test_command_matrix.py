@@ -48,7 +48,8 @@ velocity        points create 1.0 88
 pair_style      helfrich
 """
 COEFF = ("pair_coeff 1 1 10.0 0.1 kg -3.0 tension 0.2 area 30 init area/difference 5 init thickness 0.1 area/local 40 "
-         "volume 20 init pressure 0.1 regularize 1.0 lipids NULL outer A 3 B 1 inner A 1 library A 0.04 0.3 library B 0.06 -0.2\n")
+         "volume 20 init pressure 0.1 regularize 1.0 leaflets 0.01 &\nlipids NULL outer A 3 B 1 inner A 1 library A 0.04 0.3 "
+         "library B 0.06 -0.2\n")
 FIXES = """
 fix             l points hd/lipids 2 1.0 4711 diffuse 0.5 flip 0.5 global 0.1 interaction A B 0.2
 fix             i1 nve hd/nve
