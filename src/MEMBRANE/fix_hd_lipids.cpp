@@ -188,6 +188,7 @@ void FixHDLipids::init()
   if (exchange) keep();
   mesh.init();
   find_membranes();
+  follow_origins();
   rules = std::make_unique<Membrane_NS::PatchRules>(model->quadrature());
   groups.clear();
 

@@ -119,6 +119,7 @@ class FixHDLipids : public Fix {
   void take_up();
   void start(Membrane_NS::FaceLipids);
   void keep();
+  void follow_origins();
   std::array<bigint, 3> corners_of(int face, const std::vector<bigint> &origins) const;
   double composed(int face, int leaflet) const;
 

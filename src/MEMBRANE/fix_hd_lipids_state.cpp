@@ -79,7 +79,7 @@ void FixHDLipids::take_up()
   }
   for (int f = 0; f < nfaces; ++f) {
     KeptFace wanted;
-    wanted.corners = corners_of(f, model->origins().before());
+    wanted.corners = corners_of(f, model->origins().now());
     const auto face = std::lower_bound(kept.begin(), kept.end(), wanted);
     if (face != kept.end() && face->corners == wanted.corners)
       found[f] = &*face;
@@ -186,6 +186,24 @@ void FixHDLipids::keep()
     for (int l = 0; l < 2; ++l)
       for (int i = 0; i < lipids.size(l, f); ++i)
         face.lipids[l].push_back(static_cast<char>(lipids.kind(l, lipids.first(l, f) + i)));
+    now.push_back(std::move(face));
+  }
+  std::sort(now.begin(), now.end());
+  kept = std::move(now);
+}
+
+// in init(), which commands such as write_restart call as well: control points may have other numbers after it
+
+void FixHDLipids::follow_origins()
+{
+  std::vector<KeptFace> now;
+  for (int f = 0; f < mesh->topology().num_faces(); ++f) {
+    KeptFace face;
+    face.corners = corners_of(f, model->origins().before());
+    const auto found = std::lower_bound(kept.begin(), kept.end(), face);
+    if (found == kept.end() || found->corners != face.corners) continue;
+    face.corners = corners_of(f, model->origins().now());
+    face.lipids = found->lipids;
     now.push_back(std::move(face));
   }
   std::sort(now.begin(), now.end());

@@ -98,6 +98,11 @@ claim("replicate: copies have the lipids of their original, face by face",
 claim("  and twice its energy", abs(rows[3]["PotEng"] - 2.0 * rows[2]["PotEng"]) < 1e-9 * abs(rows[2]["PotEng"]))
 claim("  and move on", places(rows[-1]) != places(rows[3]))
 
+rows = thermo(run(start() + "run 20\nreplicate 2 1 1\nwrite_restart copies.restart\nrun 0\n"))
+claim("  also if a restart file is written in between", same_places(rows[3], rows[2], 2.0))
+rows = thermo(run(again.replace("between", "copies") + "run 0\n"))
+claim("  and in that file", same_places(rows[0], whole[2], 2.0))
+
 rows = thermo(run(start() + "run 20\nreset_atoms id\nrun 0\nreset_timestep 0\nrun 20\n"))
 claim("reset_atoms id: lipids stay on their faces", same_places(rows[3], rows[2]))
 claim("reset_timestep: other noise than in the first run", rows[-1]["f_x[1]"] != 2.0 * rows[2]["f_x[1]"] and
