@@ -21,9 +21,12 @@
 #include "error.h"
 #include "fix.h"
 #include "fmt/format.h"
+#include "force.h"
+#include "helfrich_lipids.h"
 #include "memory.h"
 #include "mesh_lipid_places.h"
 #include "modify.h"
+#include "pair.h"
 #include "update.h"
 
 #include <algorithm>
@@ -76,9 +79,15 @@ ComputeMembraneLipids::~ComputeMembraneLipids()
   memory->destroy(array_local);
 }
 
+// the number of kinds is known before the first run, for styles that ask how long arrays are
+
 void ComputeMembraneLipids::init()
 {
   mesh.init();
+  Pair *pair = force->pair_match("helfrich", 1);
+  int dim;
+  if (const void *said = pair ? pair->extract("lipids", dim) : nullptr)
+    resize(static_cast<const HelfrichLipids *>(said)->library().size());
 }
 
 /* ---------------------------------------------------------------------- */

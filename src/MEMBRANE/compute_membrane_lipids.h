@@ -42,6 +42,7 @@ class ComputeMembraneLipids : public Compute {
   void compute_array() override;
   /// By face, in the order of compute property/local: numbers of the kinds asked for.
   void compute_local() override;
+  int lock_length() override { return size_vector; }
   double memory_usage() override;
 
  private:
