@@ -19,10 +19,12 @@
 
 #include "atom.h"
 #include "atom_vec.h"
+#include "bound_search.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "group.h"
+#include "membrane_mesh_file.h"
 #include "membrane_random.h"
 #include "mesh_box.h"
 #include "mesh_distributed.h"
@@ -31,6 +33,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -54,7 +57,9 @@ void CreateBound::command(int narg, char **arg)
 {
   if (!domain->box_exist) error->all(FLERR, "create_bound needs membranes: use create_membrane or read_data first");
   parse(narg, arg);
-  const std::vector<Vector3d> places = find_places();
+  DistributedMesh::of(lmp, "create_bound").update();
+  const std::vector<Vector3d> places = file.empty() ? find_places() : find_inclusions();
+  count = static_cast<bigint>(places.size());
   if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
   atom->nghost = 0;
   atom->avec->clear_bonus();
@@ -78,7 +83,8 @@ void CreateBound::command(int narg, char **arg)
 void CreateBound::parse(int narg, char **arg)
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "create_bound", error);
-  count = utils::bnumeric(FLERR, arg[0], false, lmp);
+  const bool all = strcmp(arg[0], "all") == 0;
+  count = all ? 0 : utils::bnumeric(FLERR, arg[0], false, lmp);
   if (count < 0) error->all(FLERR, "create_bound number {} must not be negative", arg[0]);
   type = utils::expand_type_int(FLERR, arg[1], Atom::ATOM, lmp);
   if (type < 1 || type > atom->ntypes)
@@ -92,7 +98,8 @@ void CreateBound::parse(int narg, char **arg)
 
   for (int iarg = 4; iarg < narg; iarg += 2) {
     const std::string key = arg[iarg];
-    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "create_bound " + key, error);
+    const int more = key == "center" ? 2 : key == "inclusions" ? 1 : 0;
+    if (iarg + 1 + more >= narg) utils::missing_cmd_args(FLERR, "create_bound " + key, error);
     const std::string word = arg[iarg + 1];
     if (key == "leaflet") {
       if (word != "in" && word != "out" && word != "both")
@@ -106,10 +113,85 @@ void CreateBound::parse(int narg, char **arg)
         error->all(FLERR, "create_bound {} {} must {}", key, word,
                    key == "mass" ? "be positive" : "not be negative");
       (key == "height" ? height : key == "min" ? least : mass) = value;
+    } else if (key == "inclusions") {
+      file = word;
+      inclusion = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+    } else if (key == "center") {
+      for (int k = 0; k < 3; ++k) center[k] = utils::numeric(FLERR, arg[iarg + 1 + k], false, lmp);
+    } else if (key == "scale") {
+      scale = utils::numeric(FLERR, word, false, lmp);
+      if (!(scale > 0.0)) error->all(FLERR, "create_bound scale {} must be positive", word);
     } else
       error->all(FLERR,
-                 "Unknown create_bound keyword {}; known are: leaflet, height, min, mass, molecule", key);
+                 "Unknown create_bound keyword {}; known are: leaflet, height, min, mass, molecule, inclusions, center, "
+                 "scale", key);
+    iarg += more;
   }
+  if (all == file.empty())
+    error->all(FLERR, "create_bound {}: atoms at random are a number, those at inclusions of a file are all of them",
+               arg[0]);
+  if (!file.empty() && least > 0.0)
+    error->all(FLERR, "create_bound min is for places at random: the file says where inclusions are");
+  if (file.empty() && (scale != 1.0 || !center.isZero()))
+    error->all(FLERR, "create_bound center and scale are those of a file: say inclusions, too");
+}
+
+std::vector<int> CreateBound::components() const
+{
+  const DistributedMesh &mesh = DistributedMesh::of(lmp, "create_bound");
+  const auto &topology = mesh.topology();
+  std::vector<int> mine(topology.num_components(), 0), inside(mine.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = mesh.vertex(atom->tag[i]);
+    if (v >= 0 && atom->mask[i] & membranebit) mine[topology.component(v)] = 1;
+  }
+  MPI_Allreduce(mine.data(), inside.data(), static_cast<int>(mine.size()), MPI_INT, MPI_MAX, world);
+  return inside;
+}
+
+/* ----------------------------------------------------------------------
+   the place on the surface next to the vertex of each inclusion
+------------------------------------------------------------------------- */
+
+std::vector<Vector3d> CreateBound::find_inclusions()
+{
+  std::vector<Vector3d> places;
+  std::string message;
+  if (comm->me == 0) {
+    try {
+      places = Membrane_NS::read_inclusions(file, inclusion);
+    } catch (const Membrane_NS::MeshError &err) {
+      message = err.what();
+    }
+  }
+  int sizes[2] = {static_cast<int>(message.size()), static_cast<int>(places.size())};
+  MPI_Bcast(sizes, 2, MPI_INT, 0, world);
+  message.resize(sizes[0]);
+  MPI_Bcast(message.data(), sizes[0], MPI_CHAR, 0, world);
+  if (!message.empty()) error->all(FLERR, "create_bound: {}", message);
+  places.resize(sizes[1]);
+  MPI_Bcast(places.data(), 3 * sizes[1], MPI_DOUBLE, 0, world);
+
+  const DistributedMesh &mesh = DistributedMesh::of(lmp, "create_bound");
+  const auto inside = components();
+  std::vector<int> chosen;
+  for (size_t c = 0; c < inside.size(); ++c)
+    if (inside[c]) chosen.push_back(static_cast<int>(c));
+  if (chosen.empty())
+    error->all(FLERR, "create_bound: the group has no control points, so there is no membrane to place atoms on");
+  const BoundSearch search(mesh, chosen);
+  for (Vector3d &place : places) {
+    const Vector3d x = scale * place + center;
+    const auto found = search.find(x).closest;
+    const double away = (found.foot - x).norm();
+    if (!(away < mesh.longest_edge()))
+      error->all(FLERR,
+                 "create_bound: an inclusion of {} at {:.4g} {:.4g} {:.4g} is {:.3g} off the membrane, more than an edge: "
+                 "give center and scale as in create_membrane", file, x[0], x[1], x[2], away);
+    const int side = leaflet ? leaflet : found.distance < 0.0 ? -1 : 1;
+    place = found.foot + side * MAX(height, HINT * mesh.longest_edge()) * found.normal;
+  }
+  return places;
 }
 
 /* ----------------------------------------------------------------------
@@ -120,14 +202,8 @@ void CreateBound::parse(int narg, char **arg)
 std::vector<Vector3d> CreateBound::find_places()
 {
   DistributedMesh &mesh = DistributedMesh::of(lmp, "create_bound");
-  mesh.update();
   const auto &topology = mesh.topology();
-  std::vector<int> mine(topology.num_components(), 0), inside(mine.size());
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const int v = mesh.vertex(atom->tag[i]);
-    if (v >= 0 && atom->mask[i] & membranebit) mine[topology.component(v)] = 1;
-  }
-  MPI_Allreduce(mine.data(), inside.data(), static_cast<int>(mine.size()), MPI_INT, MPI_MAX, world);
+  const auto inside = components();
   const LimitSurfaceOfMesh surface(topology, mesh.triangle_mesh());
 
   // corners of the cells: (i, j) to (i+1, j+1), of which those beyond the diagonal are mirrored

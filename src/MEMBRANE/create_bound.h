@@ -24,11 +24,12 @@ CommandStyle(create_bound,CreateBound);
 #include "membrane_limit_surface.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-/** Places atoms on membranes, uniform in area, for fix hd/bind to hold. The same atoms on any number of
+/** Places atoms on membranes, uniform in area or where a file has inclusions, for fix hd/bind to hold. The same atoms on any number of
     ranks. */
 class CreateBound : public Command {
  public:
@@ -41,10 +42,15 @@ class CreateBound : public Command {
   double height = 0.0, least = 0.0, mass = 0.0;
   uint64_t seed = 0;
   tagint molecule = 0;
-
+  std::string file;    // with inclusions, if any
+  int inclusion = 0;
+  double scale = 1.0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
 
   void parse(int, char **);
+  std::vector<int> components() const;
   std::vector<Eigen::Vector3d> find_places();
+  std::vector<Eigen::Vector3d> find_inclusions();
   std::vector<Eigen::Vector3d> other_atoms(const class DistributedMesh &) const;
   void add_atoms(const std::vector<Eigen::Vector3d> &);
 };

@@ -22,9 +22,11 @@
 #include "bond.h"
 #include "comm.h"
 #include "dihedral.h"
+#include "domain.h"
 #include "force.h"
 #include "improper.h"
 #include "kspace.h"
+#include "neighbor.h"
 #include "pair.h"
 
 #include <Eigen/Eigenvalues>
@@ -42,6 +44,30 @@ static constexpr double DISPLACEMENT = 1.0e-5;
 
 // the start vector is always the same one
 static constexpr uint64_t SEED = 20250204;
+
+/* ---------------------------------------------------------------------- */
+
+void StiffnessProbe::place_atoms(LAMMPS *lmp)
+{
+  lmp->init();
+  Atom *atom = lmp->atom;
+  Comm *comm = lmp->comm;
+  Domain *domain = lmp->domain;
+  Neighbor *neighbor = lmp->neighbor;
+  atom->setup();
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  domain->reset_box();
+  comm->setup();
+  if (neighbor->style) neighbor->setup_bins();
+  comm->exchange();
+  if (atom->sortfreq > 0) atom->sort();
+  comm->borders();
+  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
+  neighbor->build(1);
+  lmp->force->setup();
+  if (lmp->force->kspace) lmp->force->kspace->setup();
+}
 
 /* ---------------------------------------------------------------------- */
 

@@ -30,6 +30,10 @@ class StiffnessProbe : protected Pointers {
   /// Which forces count: those of pair style helfrich, or all of pair, bond, ..., kspace styles.
   enum class Forces { MEMBRANE, ALL };
 
+  /** Collective; for commands, before the mass matrix is made: atoms and ghosts are placed as the set-up of a
+      run does, so that a later run finds every atom in the place it would have had anyway. Fixes are not asked. */
+  static void place_atoms(class LAMMPS *);
+
   StiffnessProbe(class LAMMPS *, HDMass &, Forces);
   /// Whether there is anything to compute forces with.
   bool has_forces() const;
@@ -49,6 +53,8 @@ class StiffnessProbe : protected Pointers {
   Eigenvalue largest(int most_steps, double tolerance);
   /// Rayleigh's quotient v K v / v M v.
   double quotient(const Membrane_NS::VertexField &v);
+  /// product = K v, in units of M v/time^2, for owned vertices.
+  void multiply(const Membrane_NS::VertexField &v, Membrane_NS::VertexField &product);
 
  private:
   HDMass &mass;
@@ -56,7 +62,6 @@ class StiffnessProbe : protected Pointers {
   class Pair *helfrich;
   std::vector<std::array<double, 3>> x_before, f_before;    // of owned atoms
 
-  void multiply(const Membrane_NS::VertexField &v, Membrane_NS::VertexField &product);
   void displace(const Membrane_NS::VertexField &v, double step);
   double dot(const Membrane_NS::VertexField &, const Membrane_NS::VertexField &);
 };

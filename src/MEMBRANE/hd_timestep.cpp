@@ -84,7 +84,7 @@ void HDTimestep::command(int narg, char **arg)
   parse(narg, arg, mass, group->bitmask[igroup]);
   const bool overdamped = mass.drag_coefficient() > 0.0;
 
-  place_atoms();
+  StiffnessProbe::place_atoms(lmp);
   mass.init(true);
   if (mass.count() == 0) error->all(FLERR, "hd_timestep: group {} has no control points", arg[0]);
 
@@ -240,29 +240,6 @@ void HDTimestep::parse(int narg, char **arg, HDMass &mass, int groupbit)
     }
     iarg += words;
   }
-}
-
-/* ----------------------------------------------------------------------
-   what the set-up of a run does, so that a later run finds every atom in the place it would have
-   had anyway; fixes are not asked
-------------------------------------------------------------------------- */
-
-void HDTimestep::place_atoms()
-{
-  lmp->init();
-  atom->setup();
-  if (domain->triclinic) domain->x2lamda(atom->nlocal);
-  domain->pbc();
-  domain->reset_box();
-  comm->setup();
-  if (neighbor->style) neighbor->setup_bins();
-  comm->exchange();
-  if (atom->sortfreq > 0) atom->sort();
-  comm->borders();
-  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
-  neighbor->build(1);
-  force->setup();
-  if (force->kspace) force->kspace->setup();
 }
 
 /* ----------------------------------------------------------------------

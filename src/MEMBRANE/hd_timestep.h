@@ -45,7 +45,6 @@ class HDTimestep : public Command {
   };
 
   void parse(int, char **, class HDMass &, int groupbit);
-  void place_atoms();
   Membrane_NS::VertexField mode_shape(HDMass &) const;
   bool start_moving(HDMass &, double limit) const;
   double energy_error(HDMass &, class StiffnessProbe &, double dt, int nsteps) const;

@@ -50,14 +50,18 @@ class NumberedVertices {
       text.fail("a triangle needs 3 corners, there are " +
                 std::to_string(std::max(0, text.size() - first)) +
                 "; correct the line or export the mesh again");
-    for (int k = first; k < first + 3; ++k) {
-      const auto vertex = index_.find(text.integer(k));
-      if (vertex == index_.end())
-        text.fail("corner " + quoted(text[k]) + " is not the number of one of the " +
-                  std::to_string(soup_.points.size()) + " vertices; correct the face");
-      soup_.corners.push_back(vertex->second);
-    }
+    for (int k = first; k < first + 3; ++k) soup_.corners.push_back(index(text, k));
     soup_.end_polygon();
+  }
+
+  /// Which vertex word k of the line names.
+  int index(const MeshText &text, int k) const
+  {
+    const auto vertex = index_.find(text.integer(k));
+    if (vertex == index_.end())
+      text.fail("corner " + quoted(text[k]) + " is not the number of one of the " +
+                std::to_string(soup_.points.size()) + " vertices; correct the face");
+    return vertex->second;
   }
 
  private:
@@ -88,7 +92,7 @@ void set_lattice(const MeshText &text, const Eigen::Matrix3d &lattice, PolygonSo
    number and corners. A vector field has a line for each vertex.
 ------------------------------------------------------------------------- */
 
-PolygonSoup Membrane_NS::read_tsi(const std::string &path, std::string_view content)
+static PolygonSoup read_tsi(const std::string &path, std::string_view content, std::vector<TsiInclusion> *inclusions)
 {
   MeshText text(path, content, '\0');
   PolygonSoup soup;
@@ -122,9 +126,24 @@ PolygonSoup Membrane_NS::read_tsi(const std::string &path, std::string_view cont
       next_item(text, items.c_str(), i, count);
       if (is_vertex) vertices.add(text);
       if (is_triangle) vertices.add_triangle(text, 1);
+      if (!inclusions || section != "inclusion") continue;
+      if (text.size() < 3) text.fail("an inclusion needs a number, a type and a vertex; correct the line");
+      inclusions->push_back({text.count(1), soup.points[vertices.index(text, 2)]});
     }
   }
   return soup;
+}
+
+PolygonSoup Membrane_NS::read_tsi(const std::string &path, std::string_view content)
+{
+  return ::read_tsi(path, content, nullptr);
+}
+
+std::vector<TsiInclusion> Membrane_NS::read_tsi_inclusions(const std::string &path, std::string_view content)
+{
+  std::vector<TsiInclusion> inclusions;
+  ::read_tsi(path, content, &inclusions);
+  return inclusions;
 }
 
 /* ----------------------------------------------------------------------

@@ -126,3 +126,20 @@ TriangleMesh Membrane_NS::read_mesh(const std::string &path)
   MeshFileReport report;
   return read_mesh(path, PeriodicBox(), report);
 }
+
+std::vector<Eigen::Vector3d> Membrane_NS::read_inclusions(const std::string &path, int type)
+{
+  if (extension(path) != "tsi")
+    mesh_file_error(path, 0, "only files of FreeDTS and TS2CG, *.tsi, have inclusions");
+  std::vector<Eigen::Vector3d> places;
+  std::string others;
+  for (const TsiInclusion &inclusion : read_tsi_inclusions(path, read_whole_file(path)))
+    if (inclusion.type == type)
+      places.push_back(inclusion.place);
+    else if ((others + ' ').find(' ' + std::to_string(inclusion.type) + ' ') == std::string::npos)
+      others += ' ' + std::to_string(inclusion.type);
+  if (places.empty())
+    mesh_file_error(path, 0, "it has no inclusions of type " + std::to_string(type) +
+                                 (others.empty() ? "" : ", but of" + others));
+  return places;
+}

@@ -30,7 +30,7 @@ namespace Membrane_NS {
     .obj   Wavefront OBJ; `v` and `f` lines, with negative indices; all other lines are left out
     .stl   STL, text or binary
     .vtp   VTK XML PolyData, text or base64 without compression, polygons and strips
-    .tsi   FreeDTS and TS2CG: vertices and triangles; inclusions and exclusions are left out
+    .tsi   FreeDTS and TS2CG: vertices and triangles; inclusions are read_inclusions()'
     .mesh  the program hd: vertices and triangles; lists of neighbours are left out
 
     assemble() in membrane_mesh_soup.h makes a mesh of what the file has, and says what it did. The
@@ -47,6 +47,9 @@ TriangleMesh read_mesh(const std::string &path);
 /// The same of a file that has been read: `path` names the format, and the file in messages.
 TriangleMesh parse_mesh(const std::string &path, std::string_view content, const PeriodicBox &box,
                         MeshFileReport &report);
+
+/// Vertices of a .tsi file with inclusions of a type; MeshError likewise, and if the file is another.
+std::vector<Eigen::Vector3d> read_inclusions(const std::string &path, int type);
 
 }    // namespace Membrane_NS
 

@@ -31,6 +31,12 @@ PolygonSoup read_obj(const std::string &path, std::string_view content);
 PolygonSoup read_stl(const std::string &path, std::string_view content);
 PolygonSoup read_vtp(const std::string &path, std::string_view content);
 PolygonSoup read_tsi(const std::string &path, std::string_view content);
+/// Collected in a file of FreeDTS or TS2CG besides the mesh.
+struct TsiInclusion {
+  int type;
+  Eigen::Vector3d place;    ///< of its vertex
+};
+std::vector<TsiInclusion> read_tsi_inclusions(const std::string &path, std::string_view content);
 PolygonSoup read_hd(const std::string &path, std::string_view content);
 
 }    // namespace Membrane_NS

@@ -156,6 +156,7 @@ COMMANDS = {
     "minimize": "minimize 0 0 3 100",
     "minimize in another style": "min_style cg\nminimize 0 0 3 100\nmin_style membrane",
     "hd_timestep": "hd_timestep walls",
+    "hd_modes": "hd_modes nve lowest 3 file m.txt mass lumped",
     "write_membrane": "write_membrane w.vtp",
     "membrane_build": "membrane_build patch m.pdb membrane 1 scale 32 format top overwrite yes out m",
     "write_data": "write_data w.data",

@@ -244,6 +244,31 @@ for ranks in RANKS:
     claim(f"    and domains are the types of control points, {ranks} ranks", not wrong, wrong[:3])
 _, after = measure("create_membrane 1 file b.tsi center -2 -2 -2\n")
 claim("    and the file is read again", after[0] > 0, after)
+BACK = BOX.format(lo=-2, hi=2) + """create_membrane 1 file b.tsi center -2 -2 -2 interpolate yes
+group points molecule 1
+create_bound all 2 points 4711 inclusions b.tsi 3 {}
+group bound subtract all points
+set group bound mass 1.0
+"""
+for ranks in RANKS:
+    run(BACK.format("center -2 -2 -2") + "write_dump bound custom back.dump x y z modify sort id\n", ranks=ranks)
+    back = [[float(w) for w in line.split()] for line in open("back.dump").read().split("ATOMS x y z")[1].strip().split("\n")]
+    far = max(math.dist([w - 2 for w in vertices[int(row[2])][1:4]], x) for row, x in zip(inclusions, back))
+    claim(f"create_bound places atoms at the inclusions of the file, {ranks} ranks", len(back) == 9 and far < 0.001, far)
+for words, expected in (("", "off the membrane, more than an edge: give center and scale"),
+                        ("center -2 -2 -2 min 1", "min is for places at random"),
+                        ("center -2 -2", "Illegal create_bound center command"),
+                        ("scale 0", "scale 0 must be positive")):
+    error = error_of(BACK.format(words))
+    claim(f"create_bound inclusions {words}: one clear line", expected in error, error)
+for words, expected in (("all 2 points 4711", "create_bound all: atoms at random are a number"),
+                        ("5 2 points 4711 inclusions b.tsi 3", "create_bound 5: atoms at random are a number"),
+                        ("all 2 points 4711 inclusions b.tsi 4", "has no inclusions of type 4, but of 3"),
+                        ("all 2 points 4711 inclusions a.vtp 4", "only files of FreeDTS and TS2CG"),
+                        ("all 2 points 4711 inclusions none.tsi 4", "cannot be opened"),
+                        ("5 2 points 4711 scale 2", "center and scale are those of a file")):
+    error = error_of(PARTICLES.replace("create_bound 9 2 points 4711", "create_bound " + words))
+    claim(f"create_bound {words}: one clear line", expected in error, error)
 for end, words in (("b.off inclusions b 1", "only a file in TSI format"), ("b.tsi inclusions none 1", "none"),
                    ("b.tsi inclusions b -1", "must not be negative")):
     error = error_of(PARTICLES + f"write_membrane {end}\n")
