@@ -465,6 +465,16 @@ TEST(LipidInteraction, LineTensionOfAFlatDomainIsItsContactsSummedByHand)
   }
 }
 
+TEST(LipidInteraction, ContactsWithinAFaceAreThreeHalvesOfALipidLessThoseAcrossItsEdges)
+{
+  LipidExchange exchange({{1.0, 0.0}, {1.0, 0.0}}, in_order(2, {{{9}, {0}}}, {0, 0, 0, 0, 1, 1, 1, 1, 1}, {}), {}, {0},
+                         no_curvature(1));
+  exchange.set_interaction({1.0, 1.0, 1.0, 1.0});
+  EXPECT_NEAR(exchange.energy(), 1.5 * (9.0 - 3.0), 1e-12);
+  exchange.set_interaction({0.0, 1.0, 1.0, 0.0});
+  EXPECT_NEAR(exchange.energy(), 1.5 * (9.0 - 3.0) * 4.0 * 5.0 / 36.0, 1e-12);
+}
+
 /// Mean of s s' over edges of a sheet with one lipid a face, half of each kind, and the structure factor of
 /// the longest waves.
 std::array<double, 2> honeycomb(double w, int size)

@@ -225,7 +225,7 @@ COMMANDS = [
     (coeff("1 1 10.0 0.0 lipids NULL library A 1 0 outer A 1 inner A 1 library A 1 0.1"),
      "lipid A has area 1 and curvature 0.10000000000000001 here but area 1 and curvature 0 elsewhere"),
     (coeff("1 1 10.0 0.0 lipids nowhere.membrane outer A 1 inner A 1"), "cannot open file nowhere.membrane"),
-    (coeff("1 1 10.0 0.0 stiffness 1.0"), "Unknown pair_coeff helfrich keyword stiffness; known are: kg, tension"),
+    (coeff("1 1 10.0 0.0 stiffness 1.0"), "Unknown pair_coeff helfrich keyword stiffness; known are: kg, leaflets, tension"),
 ]
 
 # a membrane that grows: its stencils reach beyond the ghosts of a rank
