@@ -45,8 +45,8 @@ static std::vector<std::unique_ptr<HelfrichTerm>> make_terms(LAMMPS *lmp)
 {
   std::vector<std::unique_ptr<HelfrichTerm>> terms;
   terms.push_back(std::make_unique<HelfrichTermBending>(lmp));
-  for (auto make : {make_gauss_term, make_tension_term, make_area_term, make_area_difference_term,
-                    make_local_area_term, make_volume_term, make_pressure_term,
+  for (auto make : {make_gauss_term, make_leaflets_term, make_tension_term, make_lipids_term, make_area_term,
+                    make_area_difference_term, make_local_area_term, make_volume_term, make_pressure_term,
                     make_regularize_term, make_measure_term})
     terms.push_back(make(lmp));
   return terms;
@@ -54,10 +54,17 @@ static std::vector<std::unique_ptr<HelfrichTerm>> make_terms(LAMMPS *lmp)
 
 HelfrichModel::HelfrichModel(LAMMPS *lmp) :
     Pointers(lmp), scene(lmp), exclusion(lmp), terms(make_terms(lmp)),
-    bending(static_cast<HelfrichTermBending *>(terms.front().get())), restored(false),
-    reports_volume(false), stale(true), tally{}
+    bending(static_cast<HelfrichTermBending *>(terms.front().get())),
+    lipids(static_cast<HelfrichTermLipids *>(find_term("lipids"))), restored(false), reports_volume(false),
+    stale(true), lipid_stamp(0), tally{}
 {
   set_quadrature(Quadrature::SIX);
+}
+
+HelfrichTerm *HelfrichModel::find_term(const std::string &keyword) const
+{
+  const auto found = std::find_if(terms.begin(), terms.end(), [&](auto &t) { return t->keyword == keyword; });
+  return found == terms.end() ? nullptr : found->get();
 }
 
 void HelfrichModel::set_quadrature(Quadrature quadrature)
@@ -79,18 +86,19 @@ void HelfrichModel::set_coefficients(const std::vector<int> &types, int narg, ch
     for (int type : types) term->clear(type);
   for (int type : types) fresh[type] = !restored;
 
-  int iarg = bending->parse(types, HelfrichWords(lmp, narg, arg));
+  std::vector<std::string> keywords;
+  for (size_t i = 1; i < terms.size(); ++i)
+    if (terms[i]->is_keyword()) keywords.push_back(terms[i]->keyword);
+
+  int iarg = bending->parse(types, HelfrichWords(lmp, narg, arg, keywords));
   while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    const auto term = std::find_if(terms.begin() + 1, terms.end(),
-                                   [&](auto &t) { return t->is_keyword() && t->keyword == keyword; });
-    if (term == terms.end()) {
+    const HelfrichWords words(lmp, narg - iarg, arg + iarg, keywords);
+    if (!words.at_end(0)) {
       std::string known;
-      for (size_t i = 1; i < terms.size(); ++i)
-        if (terms[i]->is_keyword()) known += (i > 1 ? ", " : "") + terms[i]->keyword;
-      error->all(FLERR, "Unknown pair_coeff helfrich keyword {}; known are: {}", keyword, known);
+      for (const std::string &keyword : keywords) known += (known.empty() ? "" : ", ") + keyword;
+      error->all(FLERR, "Unknown pair_coeff helfrich keyword {}; known are: {}", words.keyword(), known);
     }
-    iarg += (*term)->parse(types, HelfrichWords(lmp, narg - iarg, arg + iarg));
+    iarg += find_term(words.keyword())->parse(types, words);
   }
 }
 
@@ -246,8 +254,20 @@ void HelfrichModel::localize()
   stale = false;
   faces = exclusion.remaining_faces(*scene.mesh);
   scene.groups = scene.mesh->local_groups(*rules, faces);
-  scene.model.resize(scene.nslots());
-  for (HelfrichTerm *term : present) term->localize(scene.groups, scene.model);
+  load(scene.groups, scene.model);
+}
+
+void HelfrichModel::load(const std::vector<FaceGroup> &groups, FaceModel &model)
+{
+  lipid_stamp = scene.mesh->lipids().stamp;
+  model.resize(count_slots(groups));
+  for (HelfrichTerm *term : present) term->localize(groups, model);
+}
+
+void HelfrichModel::describe_faces(const std::vector<FaceGroup> &groups, FaceModel &model)
+{
+  load(groups, model);
+  stale = true;    // terms keep what they load
 }
 
 /* ----------------------------------------------------------------------
@@ -306,7 +326,10 @@ bool HelfrichModel::prepare(const Wanted &wanted)
 {
   const MeshChange changed = scene.mesh.follow();
   if (changed == MeshChange::TOPOLOGY) choose();
-  if (stale || changed != MeshChange::NOTHING) localize();
+  if (stale || changed != MeshChange::NOTHING)
+    localize();
+  else if (scene.mesh->lipids().stamp != lipid_stamp)
+    load(scene.groups, scene.model);
 
   const bool first_pass = needs.totals || (wanted.total_volume && reports_volume);
   if (first_pass) measure(wanted);
@@ -320,9 +343,10 @@ void HelfrichModel::compute(const Wanted &wanted)
   const int nslots = scene.nslots(), nall = atom->nlocal + atom->nghost;
   for (auto *sum : {&scene.energies.bending, &scene.energies.gauss, &scene.energies.area})
     sum->resize(wanted.energy ? nslots : 0);
+  scene.energies.leaflet_room.resize(scene.model.has_leaflets() ? nslots : 0);
   scene.energies.virial.resize(wanted.virial ? 6 * (size_t) nslots : 0);
 
-  const Membrane_NS::FaceTerms kernel = {needs.gauss, needs.volume, needs.curvature};
+  const Membrane_NS::FaceTerms kernel = {needs.gauss, needs.volume, needs.curvature, scene.model.has_leaflets()};
   const auto x = nall ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   const auto f = nall ? reinterpret_cast<double(*)[3]>(atom->f[0]) : nullptr;
   double points = 0.0;
@@ -389,9 +413,9 @@ double HelfrichModel::bending_energy(PatchRules &by)
   const auto groups = scene.mesh->local_groups(by, faces);
   FaceModel model;
   Membrane_NS::FaceIntegrals found;
-  model.resize(count_slots(groups));
   found.bending.resize(count_slots(groups));
-  bending->localize(groups, model);
+  load(groups, model);
+  stale = true;    // terms keep what they load
   const auto x =
       atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   double mine = 0.0, all;

@@ -17,6 +17,7 @@
 #include "helfrich_scene.h"
 #include "helfrich_term.h"
 #include "helfrich_term_bending.h"
+#include "helfrich_term_lipids.h"
 #include "membrane_mass_reference.h"
 #include "mesh_exclusion.h"
 
@@ -42,13 +43,22 @@ class HelfrichModel : protected Pointers {
   bool has_coefficients(int type) const { return bending->acts_on(type); }
   /// kc by type, from 1.
   std::vector<double> bending_moduli() const { return bending->moduli(); }
-  double spontaneous_curvature(int type) const { return bending->spontaneous_curvature(type); }
+  /// Of the bilayer, with what its lipids add.
+  double spontaneous_curvature(int type) const
+  {
+    return bending->spontaneous_curvature(type) + lipids->lipids().bilayer_curvature(type);
+  }
+  const HelfrichLipids &composition() const { return lipids->lipids(); }
+  /// Coefficients of faces as they are now, for others than this; the next step takes its own anew.
+  void describe_faces(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &);
 
   // === Life cycle
 
   /// Collective; call from init(). Stops if atoms and coefficients do not fit.
   void init();
   const DistributedMesh &mesh() const { return *scene.mesh; }
+  /// Up to date after init() if some membrane has lipids.
+  const MeshOrigins &origins() const { return scene.origins; }
 
   // === A step
 
@@ -86,6 +96,7 @@ class HelfrichModel : protected Pointers {
   std::unique_ptr<Membrane_NS::PatchRules> rules, finer_rules;
   std::vector<std::unique_ptr<HelfrichTerm>> terms;
   HelfrichTermBending *bending;           // the first of them
+  HelfrichTermLipids *lipids;
   std::vector<HelfrichTerm *> present;    // those this scene has
   std::vector<char> fresh;    // by type: pair_coeff was given since the last run, so "init" is now
   bool restored;              // but not the first after references came from a restart file
@@ -94,14 +105,17 @@ class HelfrichModel : protected Pointers {
   std::vector<char> membrane_volume;     // whether a term needs its volume
   bool reports_volume;                   // some membrane has one, and a compute may ask for it
   bool stale;                            // local coefficients are to be found anew
+  bigint lipid_stamp;                    // of those that are in the model
   std::vector<int> faces;                // owned, not excluded
   HelfrichTally tally;
 
+  HelfrichTerm *find_term(const std::string &keyword) const;
   void check_types();
   void choose();
   void find_types();
   void check_membrane(int m);
   void localize();
+  void load(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &);
   bool prepare(const Wanted &);
   void measure(const Wanted &);
   void act();

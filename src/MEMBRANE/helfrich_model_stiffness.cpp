@@ -65,7 +65,7 @@ std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of,
   const bool volume = unit.pressure != 0.0;
   Membrane_NS::FaceEnergies none;
   for (const FaceGroup &group : scene.groups)
-    face_forces(group, x, model, {false, volume, unit.moment != 0.0}, f, none);
+    face_forces(group, x, model, {false, volume, unit.moment != 0.0, false}, f, none);
   if (volume) share_volume_recoil(f);
   scene.conjugates = conjugates;
 
@@ -132,7 +132,7 @@ StiffnessReference HelfrichModel::describe()
       const int slot = group.first_slot + s;
       double *face = &part[4 * (size_t) group.face[s]];
       const double bent = scene.model.kc[slot] * scene.model.c0[slot];
-      face[0] = scene.model.tension[slot] + 0.5 * bent * scene.model.c0[slot];
+      face[0] = scene.model.tension[slot] + scene.model.flat_energy(slot);
       face[1] = found.shear[slot];
       face[2] = found.stretch[slot];
       face[3] = bent;

@@ -176,6 +176,8 @@ void add_corner_means(const std::vector<Membrane_NS::FaceGroup> &groups, const i
 // === The terms there are
 
 std::unique_ptr<HelfrichTerm> make_gauss_term(class LAMMPS *);
+std::unique_ptr<HelfrichTerm> make_leaflets_term(class LAMMPS *);
+std::unique_ptr<HelfrichTerm> make_lipids_term(class LAMMPS *);
 std::unique_ptr<HelfrichTerm> make_tension_term(class LAMMPS *);
 std::unique_ptr<HelfrichTerm> make_area_term(class LAMMPS *);
 std::unique_ptr<HelfrichTerm> make_area_difference_term(class LAMMPS *);

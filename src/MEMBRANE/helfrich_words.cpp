@@ -19,6 +19,8 @@
 
 #include "error.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
@@ -27,6 +29,11 @@ std::string HelfrichWords::word(int i) const
 {
   if (i >= narg) utils::missing_cmd_args(FLERR, "pair_coeff helfrich " + keyword(), error);
   return arg[i];
+}
+
+bool HelfrichWords::at_end(int i) const
+{
+  return i >= narg || std::count(keywords.begin(), keywords.end(), arg[i]);
 }
 
 double HelfrichWords::number(int i) const

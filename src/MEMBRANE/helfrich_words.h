@@ -17,19 +17,26 @@
 #include "pointers.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
 /// A keyword of pair_coeff of pair style helfrich and what follows it. Errors name what is wrong.
 class HelfrichWords : protected Pointers {
  public:
-  HelfrichWords(class LAMMPS *lmp, int narg, char **arg) : Pointers(lmp), narg(narg), arg(arg) {}
+  /// `keywords` are all that may follow.
+  HelfrichWords(class LAMMPS *lmp, int narg, char **arg, const std::vector<std::string> &keywords) :
+      Pointers(lmp), narg(narg), arg(arg), keywords(keywords)
+  {
+  }
 
   std::string keyword() const { return arg[0]; }
   /// The i-th word after the keyword, from 1.
   std::string word(int i) const;
   /// Whether there is an i-th word and it is this one.
   bool is(int i, const std::string &word) const { return i < narg && word == arg[i]; }
+  /// Whether what was said of the keyword ends before the i-th word.
+  bool at_end(int i) const;
   double number(int i) const;
   /// A number that is not negative.
   double modulus(int i) const;
@@ -39,6 +46,7 @@ class HelfrichWords : protected Pointers {
  private:
   int narg;
   char **arg;
+  const std::vector<std::string> &keywords;
 };
 
 }    // namespace LAMMPS_NS

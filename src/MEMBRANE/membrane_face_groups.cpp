@@ -107,4 +107,23 @@ void FaceModel::resize(int nslots)
 {
   for (auto *array : {&kc, &c0, &kg, &tension, &moment, &pressure}) array->assign(nslots, 0.0);
   origin.assign(3 * static_cast<size_t>(nslots), 0.0);
+  for (auto *array : {&leaflet, &outer, &inner}) array->clear();
+}
+
+// where leaflets have no distance they see the mean only, as the bilayer does
+
+void FaceModel::add_curvatures(int slot, double more_outer, double more_inner)
+{
+  const double more = 0.5 * (more_outer - more_inner);
+  c0[slot] += more;
+  if (!has_leaflets()) return;
+  const bool apart = leaflet[slot] > 0.0;
+  outer[slot] += apart ? more_outer : more;
+  inner[slot] += apart ? more_inner : -more;
+}
+
+double FaceModel::flat_energy(int slot) const
+{
+  if (!has_leaflets()) return 0.5 * kc[slot] * c0[slot] * c0[slot];
+  return 0.25 * kc[slot] * (outer[slot] * outer[slot] + inner[slot] * inner[slot]);
 }

@@ -57,12 +57,22 @@ int count_slots(const std::vector<FaceGroup> &groups);
 
 /** What each face is made of, by slot: the energy of a face is
     integral kc/2 (2H - c0)^2 + kg K + moment 2H + tension dA, and pressure is dE/dV of its
-    membrane. 2H = +2/R on a sphere with outward normals. Any consistent units. */
+    membrane. 2H = +2/R on a sphere with outward normals. Any consistent units.
+
+    With leaflets, kc/4 (2H - outer)^2 dA on the surface at a distance `leaflet` outwards and kc/4 (2H + inner)^2 dA
+    on the one inwards stand in place of kc/2 (2H - c0)^2 dA: see doc/src/Derivation_leaflets.rst. */
 struct FaceModel {
   std::vector<double> kc, c0, kg, tension, moment, pressure;
+  std::vector<double> leaflet, outer, inner;    ///< empty where there are none
   std::vector<double> origin;    ///< [slots][3] the point volumes are measured from, in the
                                  ///< periodic image that the face is in
   void resize(int nslots);
+
+  bool has_leaflets() const { return !leaflet.empty(); }
+  /// Adds to the spontaneous curvatures of monolayers, and so of the bilayer.
+  void add_curvatures(int slot, double more_outer, double more_inner);
+  /// Energy of bending per area of the flat membrane.
+  double flat_energy(int slot) const;
 };
 
 }    // namespace Membrane_NS

@@ -90,6 +90,50 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
 }
 
 /* ----------------------------------------------------------------------
+   energy of the leaflets of a block, kc/4 [(2H' - outer)^2 A' + (2H'' + inner)^2 A''] per area of the mid-plane,
+   with the curvatures (2H +- 2 K D)/A and areas A = 1 +- 2H D + K D^2 of parallel surfaces
+------------------------------------------------------------------------- */
+
+class Leaflets {
+ public:
+  Leaflets() = default;
+  Leaflets(const FaceModel &model, int slot) :
+      quarter(0.25 * load(model.kc, slot)), D(load(model.leaflet, slot)), outer(load(model.outer, slot)),
+      inner(load(model.inner, slot))
+  {
+  }
+
+  struct Density {
+    Lane value, by_curvature, by_gaussian;
+    Lane room;    // least of the areas A and their mean principal stretches
+  };
+  Density at(const Lane &curvature, const Lane &K) const
+  {
+    const Lane KD = K * D, hD = curvature * D, sum = 1.0 + KD * D;
+    const Lane up = sum + hD, down = sum - hD, inverse = 1.0 / (up * down);
+    const Lane above = (curvature + 2.0 * KD) * down * inverse;
+    const Lane below = (curvature - 2.0 * KD) * up * inverse;
+    const Lane e_up = quarter * (above - outer), e_down = quarter * (below + inner);
+    const Lane s_up = (above + outer) * D, s_down = (below - inner) * D;
+
+    Density e;
+    e.value = e_up * (above - outer) * up + e_down * (below + inner) * down;
+    e.by_curvature = e_up * (2.0 - s_up) + e_down * (2.0 + s_down);
+    e.by_gaussian = D * (e_up * (4.0 - s_up) - e_down * (4.0 + s_down));
+    const Lane size = hD < 0.0 ? -hD : hD, least = sum - size, stretch = 1.0 - 0.5 * size;
+    e.room = least < stretch ? least : stretch;
+    return e;
+  }
+
+ private:
+  Lane quarter, D, outer, inner;
+};
+
+struct BlockEnergies {
+  Lane bending, gauss, area, room;
+};
+
+/* ----------------------------------------------------------------------
    second pass on one block: energies, and the gradient g on the control points.
 
    With a = r_u x r_v, J = |a|, E = r_u.r_u, F = r_u.r_v, G = r_v.r_v and
@@ -100,22 +144,26 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
      de/ds = -[kc (2H - c0) + moment]/W,
      de/dW = kc (2H - c0)/J [(2H - c0)/4 - 3/2 2H] - moment 2H/J + tension/(2 J),
    and the chain rule runs back through B, E, F, G and a to the derivatives of r. The volume is
-   (1/3) (r - origin).a.
+   (1/3) (r - origin).a. With leaflets, of density e(2H, K), the terms of kc become
+     de/ds = -e_2H/W,   de/dW = -3/2 2H e_2H/J + (e - K e_K)/(2 J),
+   and e_K comes to kg.
 ------------------------------------------------------------------------- */
 
-template <int SIZE, bool GAUSS, bool VOLUME, bool MOMENT>
+template <int SIZE, bool GAUSS, bool VOLUME, bool MOMENT, bool LEAFLETS>
 void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, Lane3 *g,
-                 Lane &bending, Lane &gauss, Lane &area)
+                 BlockEnergies &out)
 {
+  static_assert(GAUSS || !LEAFLETS, "leaflets need the Gaussian curvature");
   const int size = SIZE ? SIZE : rule.size;
   const Lane kc = load(model.kc, slot), c0 = load(model.c0, slot);
+  const Leaflets leaflets = LEAFLETS ? Leaflets(model, slot) : Leaflets();
   const Lane tension = load(model.tension, slot);
   const Lane kg = GAUSS ? load(model.kg, slot) : Lane{};
   const Lane pressure = VOLUME ? load(model.pressure, slot) : Lane{};
   const Lane bend = MOMENT ? load(model.moment, slot) : Lane{};
   const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
 
-  bending = gauss = area = Lane{};
+  Lane bending{}, gauss{}, area{}, room = Lane{} + 1.0;
   for (int k = 0; k < size; ++k) g[k] = Lane3{};
 
   for (int q = 0; q < rule.npoints; ++q) {
@@ -146,14 +194,30 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     const Lane E = dot(ru, ru), F = dot(ru, rv), G = dot(rv, rv);
     const Lane3 B = G * ruu - 2.0 * F * ruv + E * rvv;
     const Lane curvature = -dot(B, a) * inverse * inverse * inverse;    // 2H
-    const Lane excess = curvature - c0;
-
     area += weight * J;
-    bending += (0.5 * weight) * kc * excess * excess * J;
 
-    const Lane moment = weight * kc * excess * inverse;
+    Lane L, M, N, gaussian, kg_here = kg;    // gaussian: K J
+    if (GAUSS) {
+      L = dot(ruu, a), M = dot(ruv, a), N = dot(rvv, a);
+      gaussian = (L * N - M * M) * inverse * inverse * inverse;
+      gauss += weight * kg * gaussian;
+    }
+    Lane moment, e_W;
+    if (LEAFLETS) {
+      const Lane K = gaussian * inverse;
+      const Leaflets::Density e = leaflets.at(curvature, K);
+      room = e.room < room ? e.room : room;
+      bending += weight * e.value * J;
+      moment = weight * e.by_curvature * inverse;
+      e_W = (0.5 * weight) * (e.value - K * e.by_gaussian + tension) * inverse - 1.5 * curvature * moment;
+      kg_here += e.by_gaussian;
+    } else {
+      const Lane excess = curvature - c0;
+      bending += (0.5 * weight) * kc * excess * excess * J;
+      moment = weight * kc * excess * inverse;
+      e_W = moment * (0.25 * excess - 1.5 * curvature) + (0.5 * weight) * tension * inverse;
+    }
     Lane e_s = -moment * inverse;
-    Lane e_W = moment * (0.25 * excess - 1.5 * curvature) + (0.5 * weight) * tension * inverse;
     if (MOMENT) {
       e_s -= weight * bend * inverse * inverse;
       e_W -= weight * bend * curvature * inverse;
@@ -165,15 +229,12 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     Lane3 ga = e_s * B;
 
     if (GAUSS) {
-      const Lane L = dot(ruu, a), M = dot(ruv, a), N = dot(rvv, a);
-      const Lane factor = weight * kg * inverse * inverse * inverse;
-      const Lane density = factor * (L * N - M * M);
-      gauss += density;
+      const Lane factor = weight * kg_here * inverse * inverse * inverse;
       guu += factor * N * a;
       guv += -2.0 * factor * M * a;
       gvv += factor * L * a;
       ga += factor * (N * ruu - 2.0 * M * ruv + L * rvv);
-      e_W += -1.5 * density * inverse * inverse;
+      e_W += (-1.5 * weight) * kg_here * gaussian * inverse * inverse;
     }
 
     ga += 2.0 * e_W * a;
@@ -197,6 +258,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
       g[k] = sum;
     }
   }
+  out = {bending, gauss, area, room};
 }
 
 // the compiler unrolls loops over frequent numbers of control points; 0 is any
@@ -230,11 +292,14 @@ auto choose_integrate_block(int size, bool volume, bool curvature)
 auto choose_force_block(int size, const FaceTerms &terms)
 {
   return with_size(size, [&](auto n) {
-    return with_flag(terms.gauss, [&](auto g) {
-      return with_flag(terms.volume, [&](auto v) {
-        return with_flag(terms.moment, [](auto m) {
-          return force_block<decltype(n)::value, decltype(g)::value, decltype(v)::value,
-                             decltype(m)::value>;
+    return with_flag(terms.leaflets, [&](auto l) {
+      return with_flag(terms.gauss, [&](auto g) {
+        return with_flag(terms.volume, [&](auto v) {
+          return with_flag(terms.moment, [](auto m) {
+            constexpr bool leaflets = decltype(l)::value, gauss = leaflets || decltype(g)::value;
+            return force_block<decltype(n)::value, gauss, decltype(v)::value, decltype(m)::value,
+                               leaflets>;
+          });
         });
       });
     });
@@ -276,16 +341,17 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
   const auto evaluate = choose_force_block(rule.size, terms);
 
   Lane3 p[MOST_POINTS], g[MOST_POINTS];
-  Lane bending, gauss, area;
+  BlockEnergies sum;
   for (int block = 0; block < group.nblocks(); ++block) {
     const int slot = group.first_slot + block * LANES;
     const int *points = &group.points[(size_t) block * rule.size * LANES];
     gather(points, rule.size, x, p);
-    evaluate(rule, p, model, slot, g, bending, gauss, area);
+    evaluate(rule, p, model, slot, g, sum);
 
-    if (!out.bending.empty()) store(out.bending, slot, bending);
-    if (!out.gauss.empty()) store(out.gauss, slot, gauss);
-    if (!out.area.empty()) store(out.area, slot, area);
+    if (!out.bending.empty()) store(out.bending, slot, sum.bending);
+    if (!out.gauss.empty()) store(out.gauss, slot, sum.gauss);
+    if (!out.area.empty()) store(out.area, slot, sum.area);
+    if (!out.leaflet_room.empty()) store(out.leaflet_room, slot, sum.room);
     if (!out.virial.empty()) {
       const Lane3 origin = terms.volume ? load3(model.origin, slot) : p[0];
       Lane v[6] = {};

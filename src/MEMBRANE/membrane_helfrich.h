@@ -25,6 +25,7 @@ struct FaceTerms {
   bool gauss = false;     ///< some kg is not zero
   bool volume = false;    ///< some pressure is not zero
   bool moment = false;    ///< some moment is not zero
+  bool leaflets = false;    ///< the model has them
 };
 
 /// Integrals over each face, by slot. Empty arrays are not computed.
@@ -39,6 +40,8 @@ struct FaceIntegrals {
 /// Energies and virials of each face, by slot. Empty arrays are not computed.
 struct FaceEnergies {
   std::vector<double> bending, gauss, area;    ///< [slots]
+  std::vector<double> leaflet_room;    ///< [slots] of leaflets: 1 where flat, 0 where a radius of curvature is
+                                       ///< the leaflet's distance, at a point of quadrature
   std::vector<double> virial;    ///< [slots][6] xx yy zz xy xz yz of sum r f, r from the origin if
                                  ///< the scene has a volume term, else from the first corner
 };

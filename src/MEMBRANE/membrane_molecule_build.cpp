@@ -61,7 +61,7 @@ void check_curvature(const ParallelSurfaces &part, const LeafletPatches &patches
    Proteins: their atoms are of kinds of their own library entries
 ------------------------------------------------------------------------- */
 
-FixedAtoms fix_proteins(const std::vector<PlacedProtein> &proteins, LipidLibrary &library)
+FixedAtoms fix_proteins(const std::vector<PlacedProtein> &proteins, PatchLipids &library)
 {
   FixedAtoms fixed;
   for (const PlacedProtein &protein : proteins)
@@ -170,7 +170,7 @@ void relax(LipidCrowd &crowd, const Vector3d &origin, BuildReport &report)
 /* ---------------------------------------------------------------------- */
 
 LipidNumbers Membrane_NS::numbers_from_patch(const std::vector<ParallelSurfaces> &parts, const LeafletPatches &patches,
-                                             const LipidLibrary &library)
+                                             const PatchLipids &library)
 {
   LipidNumbers numbers(parts.size());
   for (size_t p = 0; p < parts.size(); ++p)
@@ -197,7 +197,7 @@ LipidNumbers Membrane_NS::numbers_from_patch(const std::vector<ParallelSurfaces>
 
 Structure Membrane_NS::build_structure(const LimitSurface &surface, const Vector3d &origin,
                                        const std::vector<MembranePart> &membranes, const LeafletPatches &patches,
-                                       LipidLibrary &library, const std::vector<PlacedProtein> &proteins, uint64_t seed,
+                                       PatchLipids &library, const std::vector<PlacedProtein> &proteins, uint64_t seed,
                                        Team &team, BuildReport &report)
 {
   Structure structure;

@@ -41,7 +41,7 @@ using LipidNumbers = std::vector<std::array<std::vector<int>, LEAFLETS>>;
 /** round(area / area per lipid) on the neutral surface of each leaflet, in the proportions of its patch; what
     does not come out whole goes to the largest remainders. */
 LipidNumbers numbers_from_patch(const std::vector<ParallelSurfaces> &parts, const LeafletPatches &patches,
-                                const LipidLibrary &library);
+                                const PatchLipids &library);
 
 /// All molecules of a structure, in the order in which they are written.
 struct Structure {
@@ -81,7 +81,7 @@ struct BuildReport {
     origin: the corner of the box, which the limit surface does not know.
     Throws MoleculeError where the surface is curved too much for the thickness of a patch. */
 Structure build_structure(const LimitSurface &surface, const Eigen::Vector3d &origin,
-                          const std::vector<MembranePart> &membranes, const LeafletPatches &patches, LipidLibrary &library,
+                          const std::vector<MembranePart> &membranes, const LeafletPatches &patches, PatchLipids &library,
                           const std::vector<PlacedProtein> &proteins, uint64_t seed, Team &team, BuildReport &report);
 
 }    // namespace Membrane_NS

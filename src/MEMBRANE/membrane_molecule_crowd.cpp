@@ -27,7 +27,7 @@ using Eigen::Vector3d;
 
 /* ---------------------------------------------------------------------- */
 
-LipidCrowd::LipidCrowd(const LipidLibrary &library, const std::vector<ParallelSurfaces> &parts,
+LipidCrowd::LipidCrowd(const PatchLipids &library, const std::vector<ParallelSurfaces> &parts,
                        const std::array<double, LEAFLETS> &neutral, const FixedAtoms &fixed, uint64_t seed, Team &team) :
     library_(library),
     parts_(parts), neutral_(neutral), fixed_(fixed), seed_(seed), team_(team), kinds_(library.contacts.kinds())

@@ -49,12 +49,12 @@ class LipidCrowd {
 
   /// `parts` are the connected surfaces, `neutral` the heights of the neutral surfaces, positive. All must
   /// outlive this.
-  LipidCrowd(const LipidLibrary &library, const std::vector<ParallelSurfaces> &parts, const std::array<double, LEAFLETS> &neutral,
+  LipidCrowd(const PatchLipids &library, const std::vector<ParallelSurfaces> &parts, const std::array<double, LEAFLETS> &neutral,
              const FixedAtoms &fixed, uint64_t seed, Team &team);
 
   std::vector<PlacedLipid> lipids;
 
-  const LipidLibrary &library() const { return library_; }
+  const PatchLipids &library() const { return library_; }
   const std::vector<ParallelSurfaces> &parts() const { return parts_; }
   /// Random numbers for one purpose.
   CounterRandom random(int purpose) const { return {seed_, static_cast<uint64_t>(purpose)}; }
@@ -109,7 +109,7 @@ class LipidCrowd {
   void shuffle(double least, int trials, double temperature, double slide, int purpose);
 
  private:
-  const LipidLibrary &library_;
+  const PatchLipids &library_;
   const std::vector<ParallelSurfaces> &parts_;
   const std::array<double, LEAFLETS> neutral_;
   const FixedAtoms &fixed_;

@@ -164,7 +164,7 @@ std::string name_of(const MoleculeFile &file, const Lipid &lipid, std::string &k
 }
 
 void find_species(const MoleculeFile &file, const TermsOfMolecules &terms, std::vector<Lipid> &lipids,
-                  LipidLibrary &library)
+                  PatchLipids &library)
 {
   auto key_of = [](const LipidSpecies &species) {
     MoleculeFile as;
@@ -267,7 +267,7 @@ bool face_each_other(const std::vector<Lipid> &lipids, double middle)
   return !compared || product < 0.0;
 }
 
-void observe_contacts(const std::vector<Lipid> &lipids, const Matrix3d &cell, LipidLibrary &library)
+void observe_contacts(const std::vector<Lipid> &lipids, const Matrix3d &cell, PatchLipids &library)
 {
   std::vector<Vector3d> points;
   std::vector<std::pair<int, int>> owner;    // lipid, kind
@@ -362,7 +362,7 @@ std::vector<std::vector<int>> Membrane_NS::find_rings(int natoms, const std::vec
 
 /* ---------------------------------------------------------------------- */
 
-Patch Membrane_NS::make_patch(const MoleculeFile &file, bool flip, double neutral, LipidLibrary &library)
+Patch Membrane_NS::make_patch(const MoleculeFile &file, bool flip, double neutral, PatchLipids &library)
 {
   const Matrix3d cell = cell_of(file);
   Patch patch;
@@ -491,7 +491,7 @@ double Contacts::largest() const
   return *std::max_element(closest_.begin(), closest_.end());
 }
 
-double LipidLibrary::largest_radius() const
+double PatchLipids::largest_radius() const
 {
   double radius = 0.0;
   for (const Conformer &conformer : conformers)

@@ -65,7 +65,7 @@ class Contacts {
 };
 
 /// The lipids that a structure is made of, of one patch or two.
-struct LipidLibrary {
+struct PatchLipids {
   std::vector<LipidSpecies> species;
   std::vector<Conformer> conformers;
   std::vector<std::vector<int>> by_species;    ///< conformers
@@ -97,7 +97,7 @@ struct Patch {
     confirmed by its direction. flip: the patch is turned over, by 180 degrees about x.
     neutral > 0: the height of the neutral surfaces.
     Throws MoleculeError: no cell, an oblique one, a protein, lipids of one leaflet only. */
-Patch make_patch(const MoleculeFile &file, bool flip, double neutral, LipidLibrary &library);
+Patch make_patch(const MoleculeFile &file, bool flip, double neutral, PatchLipids &library);
 
 /// Puts the atoms of one molecule next to each other, in images of a cell: along bonds, given as pairs of
 /// indices, and what these do not reach next to the nearest atom.

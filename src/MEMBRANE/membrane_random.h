@@ -64,6 +64,9 @@ class CounterRandom {
     return {unit(word[0], word[1]), unit(word[2], word[3])};
   }
 
+  /// Four independent words of 32 random bits.
+  std::array<uint32_t, 4> words(uint64_t label, uint32_t block) const { return philox(counter(label, block), key_); }
+
   /// The bare generator: ten rounds on a counter of four words with a key of two.
   static std::array<uint32_t, 4> philox(std::array<uint32_t, 4> c, std::array<uint32_t, 2> k)
   {

@@ -17,6 +17,7 @@
 #include "membrane_helfrich.h"
 #include "membrane_triangle_mesh.h"
 #include "mesh_faces.h"
+#include "mesh_lipids.h"
 #include "mesh_unwrapped.h"
 
 #include <memory>
@@ -63,6 +64,9 @@ class DistributedMesh : public MeshFaces {
   /// The same with faces and the present box; the corner of the box is not the origin.
   Membrane_NS::TriangleMesh triangle_mesh() const;
 
+  /// What lipids are on faces, if some style keeps count of them.
+  MeshLipids &lipids() { return lipids_here; }
+
   // === This rank's part: the faces whose first corner it owns
 
   /// Collective; call before using what follows in a time step; cheap unless LAMMPS has reneighboured
@@ -94,6 +98,7 @@ class DistributedMesh : public MeshFaces {
  private:
   bigint update_count = 0;
   MeshUnwrapped pieces;
+  MeshLipids lipids_here;
 
   bool stale = true;
   bigint seen_ncalls = -1, seen_lastcall = -1, local_epoch = 0;

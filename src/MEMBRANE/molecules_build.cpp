@@ -88,7 +88,7 @@ void MoleculesBuild::command(int narg, char **arg)
   const LimitSurfaceOfMesh surface(mesh.topology(), control);
   const std::vector<MembranePart> parts = membranes(mesh);
 
-  LipidLibrary library;
+  PatchLipids library;
   library.clash = clash;
   std::vector<Patch> patches;
   patches.reserve(LEAFLETS);
@@ -369,7 +369,7 @@ std::vector<PlacedProtein> MoleculesBuild::place_proteins(const LimitSurface &su
 
 /* ---------------------------------------------------------------------- */
 
-void MoleculesBuild::report(const BuildReport &built, const std::vector<MembranePart> &parts, const LipidLibrary &library,
+void MoleculesBuild::report(const BuildReport &built, const std::vector<MembranePart> &parts, const PatchLipids &library,
                             const LeafletPatches &of) const
 {
   if (comm->me != 0) return;

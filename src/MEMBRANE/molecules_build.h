@@ -61,7 +61,7 @@ class MoleculesBuild : public Command {
   std::vector<Membrane_NS::PlacedProtein> place_proteins(const Membrane_NS::LimitSurface &) const;
   void agree(const std::string &message) const;
   void report(const Membrane_NS::BuildReport &, const std::vector<Membrane_NS::MembranePart> &,
-              const Membrane_NS::LipidLibrary &, const Membrane_NS::LeafletPatches &) const;
+              const Membrane_NS::PatchLipids &, const Membrane_NS::LeafletPatches &) const;
   void write(const Membrane_NS::Structure &);
 };
 

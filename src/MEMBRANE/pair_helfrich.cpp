@@ -292,6 +292,8 @@ void *PairHelfrich::extract(const char *name, int &dim)
 {
   dim = 0;
   if (strcmp(name, "model") == 0) return &model;
+  if (strcmp(name, "lipids") == 0)
+    return model.composition().any() ? const_cast<HelfrichLipids *>(&model.composition()) : nullptr;
   if (strcmp(name, "kc") != 0) return nullptr;
   dim = 1;
   moduli = model.bending_moduli();

@@ -52,7 +52,7 @@ class PairHelfrich : public Pair {
 
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
-  /// "kc": bending moduli by type, from 1.
+  /// "kc": bending moduli by type, from 1; "model"; "lipids": a const HelfrichLipids, or null if there are none.
   void *extract(const char *, int &) override;
   double memory_usage() override;
 

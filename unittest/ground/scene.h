@@ -168,6 +168,7 @@ inline std::set<int> valences_of(const TriangleMesh &mesh)
 /// The material of one connected component.
 struct Moduli {
   double kc = 0.0, c0 = 0.0, kg = 0.0, tension = 0.0, pressure = 0.0, moment = 0.0;
+  double leaflet = 0.0, outer = 0.0, inner = 0.0;
 };
 
 struct Totals {
@@ -289,6 +290,9 @@ class Scene {
   void fill_model(const Vector3d &origin)
   {
     model_.resize(count_slots(groups_));
+    terms_.leaflets = std::any_of(moduli_.begin(), moduli_.end(), [](const Moduli &m) { return m.leaflet > 0.0; });
+    if (terms_.leaflets)
+      for (auto *array : {&model_.leaflet, &model_.outer, &model_.inner}) array->resize(count_slots(groups_));
     for (const FaceGroup &group : groups_)
       for (int i = 0; i < group.nslots(); ++i) {
         const int slot = group.first_slot + i;
@@ -300,6 +304,11 @@ class Scene {
         model_.tension[slot] = m.tension;
         model_.pressure[slot] = m.pressure;
         model_.moment[slot] = m.moment;
+        if (terms_.leaflets) {
+          model_.leaflet[slot] = m.leaflet;
+          model_.outer[slot] = m.outer;
+          model_.inner[slot] = m.inner;
+        }
         for (int d = 0; d < 3; ++d) model_.origin[3 * slot + d] = origin[d];
         terms_.gauss = terms_.gauss || m.kg != 0.0;
         terms_.volume = terms_.volume || m.pressure != 0.0;

@@ -93,7 +93,7 @@ double handedness(const std::vector<Vector3d> &x)
 }
 
 struct Built {
-  LipidLibrary library;
+  PatchLipids library;
   Patch patch;
   BuildReport report;
   Structure structure;
@@ -219,7 +219,7 @@ TEST(Patch, HasLipidsOfBothLeafletsOutwardAndTurnedNotMirrored)
 {
   const MoleculeFile file = patch_file();
   for (bool flip : {false, true}) {
-    LipidLibrary library;
+    PatchLipids library;
     const Patch patch = make_patch(file, flip, 0.0, library);
     EXPECT_EQ(patch.conformers[OUTER].size(), 36u);
     EXPECT_EQ(patch.conformers[INNER].size(), 36u);
@@ -238,7 +238,7 @@ TEST(Patch, FlipTurnsItOver)
   MoleculeFile file = patch_file();
   for (size_t i = 0; i < file.atoms.size() / 2; ++i) file.atoms[i].residue = "UPPE";
   auto upper_of = [&](bool flip) {
-    LipidLibrary library;
+    PatchLipids library;
     const Patch patch = make_patch(file, flip, 0.0, library);
     return library.species[library.conformers[patch.conformers[OUTER][0]].species].name;
   };
@@ -249,7 +249,7 @@ TEST(Patch, FlipTurnsItOver)
 TEST(Patch, SaysWhatItCannotUse)
 {
   auto refused = [](MoleculeFile file) {
-    LipidLibrary library;
+    PatchLipids library;
     return message_of([&] { make_patch(file, false, 0.0, library); });
   };
   MoleculeFile file = patch_file();
@@ -284,7 +284,7 @@ TEST(Patch, LeavesWaterAndIonsOut)
     file.atoms.push_back(atom);
     file.x.emplace_back(uniform() * 48, uniform() * 48, 60.0);
   }
-  LipidLibrary library;
+  PatchLipids library;
   const Patch patch = make_patch(file, false, 0.0, library);
   EXPECT_EQ(library.species.size(), 1u);
   EXPECT_THAT(patch.notes, testing::Contains("left out: 15 NA+, 15 W"));
@@ -413,7 +413,7 @@ TEST(Rings, BondsThatGoThroughAreFoundAndUndone)
 
   MoleculeFile file;
   file.path = "rings";
-  LipidLibrary library;
+  PatchLipids library;
   library.species.resize(2);
   library.by_species = {{0}, {1}};
   auto add = [&](int s, const std::vector<Vector3d> &x, const std::vector<int> &bonds) {

@@ -42,9 +42,9 @@ TETRAHEDRON = ([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)],
 
 class Scene:
     def __init__(self, commands, box="block -2 2 -2 2 -2 2", noise=0.03, closed=True, types=2,
-                 mesh=None):
+                 mesh=None, bounded=True):
         self.commands, self.box, self.noise = commands, box, noise
-        self.closed, self.types, self.mesh = closed, types, mesh
+        self.closed, self.types, self.mesh, self.bounded = closed, types, mesh, bounded
 
     def setup(self, quadrature=6, before="", style="helfrich quadrature {}"):
         if self.mesh:
@@ -85,11 +85,11 @@ SCENES = {
         "create_membrane 2 sphere 1 0.8 center  1.1 0 0\n"
         "create_membrane 1 torus 8 6 0.6 0.25 center 0 1.5 1.5"),
     "tetrahedron": Scene(f"create_membrane 1 file tetrahedron.off scale 0.8 0.8 0.8\n{HALVES}",
-                         mesh=("tetrahedron.off", *TETRAHEDRON)),
+                         mesh=("tetrahedron.off", *TETRAHEDRON), bounded=False),
     "valence 3": Scene(f"create_membrane 1 file bipyramid3.off refine 1\n{HALVES}",
-                       mesh=("bipyramid3.off", *bipyramid(3)), noise=0.02),
+                       mesh=("bipyramid3.off", *bipyramid(3)), noise=0.02, bounded=False),
     "valence 12": Scene(f"create_membrane 1 file bipyramid12.off refine 1\n{HALVES}",
-                        mesh=("bipyramid12.off", *bipyramid(12)), noise=0.01),
+                        mesh=("bipyramid12.off", *bipyramid(12)), noise=0.01, bounded=False),
     "tilted box, sphere across its corner": Scene(
         f"create_membrane 1 sphere 1 1.2 {CORNER}\n{HALVES}", box="prism -2 2 -2 2 -2 2 0.7 -0.5 0.9"),
     "tilted box, plane": Scene(f"create_membrane 1 plane 7 8\n{HALVES}", noise=0.1, closed=False,
@@ -98,6 +98,7 @@ SCENES = {
 
 # pair_coeff of types 1 and 2; of which every term has its forces
 GLOBAL = "area 70.0 9.0 area/local 40.0 area/difference 8.0 2.0 thickness 0.1 volume 60.0 3.0 pressure 1.5"
+LIPIDS = "library A 0.65 0.4 library B 0.31 -1.1"
 TERMS = {
     "bending": ("10.0 0.0", "15.0 0.0"),
     "spontaneous curvature": ("10.0 0.8", "15.0 -0.4"),
@@ -110,9 +111,13 @@ TERMS = {
     "pressure": ("0.0 0.0 pressure 1.5",) * 2,
     "regularize": ("10.0 0.0 regularize 0.2", "15.0 0.0 regularize 0.4"),
     "regularize conformal": ("10.0 0.0 regularize 0.2 conformal", "15.0 0.0 regularize 0.4 conformal"),
-    "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 {GLOBAL}", f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
+    "leaflets": (f"10.0 0.8 leaflets 0.02 lipids NULL {LIPIDS} outer A 3 B 1 inner A 1", "15.0 -0.4 leaflets 0.04"),
+    "lipids": (f"10.0 0.8 lipids NULL {LIPIDS} outer A 3 B 1 inner A 1", "15.0 0.0"),
+    "all terms": (f"10.0 0.8 kg 7.0 tension 3.0 lipids NULL {LIPIDS} outer A 3 B 1 inner A 1 {GLOBAL}",
+                  f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
 }
 NEEDS_CLOSED = ("volume", "pressure")
+NEEDS_BOUNDED_CURVATURE = ("leaflets",)    # which there is not where the valence is 3, 7 or more
 
 
 def coefficients(term, closed=True, style=""):
@@ -126,7 +131,8 @@ def coefficients(term, closed=True, style=""):
 
 
 def terms_of(scene):
-    return [term for term in TERMS if scene.closed or term not in NEEDS_CLOSED]
+    return [term for term in TERMS if (scene.closed or term not in NEEDS_CLOSED) and
+            (scene.bounded or term not in NEEDS_BOUNDED_CURVATURE)]
 
 
 def read_dump(path):

@@ -48,8 +48,10 @@ velocity        points create 1.0 88
 pair_style      helfrich
 """
 COEFF = ("pair_coeff 1 1 10.0 0.1 kg -3.0 tension 0.2 area 30 init area/difference 5 init thickness 0.1 area/local 40 "
-         "volume 20 init pressure 0.1 regularize 1.0\n")
+         "volume 20 init pressure 0.1 regularize 1.0 leaflets 0.01 &\nlipids NULL outer A 3 B 1 inner A 1 library A 0.04 0.3 "
+         "library B 0.06 -0.2\n")
 FIXES = """
+fix             l points hd/lipids 2 1.0 4711 diffuse 0.5 flip 0.5 global 0.1 interaction A B 0.2
 fix             i1 nve hd/nve
 fix             i2 langevin hd/langevin 1.0 1.0 1.0 4711
 fix             i3 brownian hd/brownian 1.0 4711 gamma_t 50
@@ -67,6 +69,7 @@ compute         site bound hd/surface/atom h
 compute         density bound hd/density h
 compute         u nve hd/modes sphere 4
 compute         shape points membrane/shape
+compute         n points membrane/lipids
 compute         k points membrane/curvature/atom
 compute         x all property/atom xu yu zu
 variable        place atom (c_x[1]+1.7*c_x[2]+2.3*c_x[3]+0.1*vx-0.2*vy)*(1+(id%7))
@@ -77,7 +80,8 @@ compute         all all reduce sum v_place
 THERMO = """
 thermo_style    custom step atoms pe c_hf[1] c_hf[2] c_hf[3] c_hf[4] c_hf[5] c_hf[6] c_t c_u[1] c_shape[1] c_shape[2] &
                 c_k2[1] c_k2[2] c_all f_i4[3][4] f_i4[3][6] vol f_b f_b[1] f_s[2] f_s[3] f_s[5] f_s[8] f_s[9] f_s[17] &
-                f_h f_h[2] f_h[4] f_h[6] c_bt c_b2[1] c_b2[2] c_b2[3] c_density[1][3]
+                f_h f_h[2] f_h[4] f_h[6] c_bt c_b2[1] c_b2[2] c_b2[3] c_density[1][3] &
+                f_l f_l[1] f_l[2] c_n[1] c_n[2]
 thermo_modify   norm no format float %24.17g
 """
 DUMP = "dump            d points membrane/image 1 {image}.*.ppm type type size 40 40\n"
@@ -89,8 +93,8 @@ min_style       membrane
 REGROUP = "group breathing clear\ngroup breathing subtract all modes\n"    # the box of modes must not change
 RUN = REGROUP + "run 3\n"
 
-REFIX = "".join(f"unfix {fix}\n" for fix in ("i1", "i2", "i3", "i4", "p", "h", "b", "s")) + FIXES
-UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "b2", "k2", "x", "k", "shape", "u", "density", "site", "bt", "t", "hf")) + COMPUTES + THERMO
+REFIX = "".join(f"unfix {fix}\n" for fix in ("l", "i1", "i2", "i3", "i4", "p", "h", "b", "s")) + FIXES
+UNCOMPUTE = "thermo_style one\n" + "".join(f"uncompute {c}\n" for c in ("all", "b2", "k2", "x", "k", "n", "shape", "u", "density", "site", "bt", "t", "hf")) + COMPUTES + THERMO
 FOURTH = """
 region          gap sphere 0 0 3 1.4
 group           gap region gap

@@ -214,7 +214,18 @@ COMMANDS = [
      "pair_coeff helfrich area/difference: 1.0 must be thickness and a length"),
     (coeff("1 1 10.0 0.0 area/difference 1.0 init thickness 0.0"),
      "pair_coeff helfrich area/difference thickness 0.0 must be positive"),
-    (coeff("1 1 10.0 0.0 stiffness 1.0"), "Unknown pair_coeff helfrich keyword stiffness; known are: kg, tension"),
+    (coeff("1 1 10.0 0.0 leaflets 0.0"), "leaflets 0.0: the distance from the mid-plane must be positive"),
+    (coeff("1 1 10.0 0.0 leaflets 1.1"), "is curved with a radius near this distance or below: use a smaller one"),
+    (coeff("1 1 10.0 0.0 lipids"), "missing argument"),
+    (coeff("1 1 10.0 0.0 lipids NULL library A 1 0 outer A 1"), "the inner leaflet has no lipids"),
+    (coeff("1 1 10.0 0.0 lipids NULL library A 1 0 outer A 1 inner B 1"), "unknown lipid B; known are: A"),
+    (coeff("1 1 10.0 0.0 lipids NULL library A 1 0 outer A 0 inner A 1"), "outer leaflet: the parts of a leaflet are all"),
+    (coeff("1 1 10.0 0.0 lipids NULL library A 1 0 outer A -1 inner A 1"), "parts of lipid A must not be negative"),
+    (coeff("1 1 10.0 0.0 lipids NULL library A 0 0 outer A 1 inner A 1"), "area of lipid A must be positive"),
+    (coeff("1 1 10.0 0.0 lipids NULL library A 1 0 outer A 1 inner A 1 library A 1 0.1"),
+     "lipid A has area 1 and curvature 0.10000000000000001 here but area 1 and curvature 0 elsewhere"),
+    (coeff("1 1 10.0 0.0 lipids nowhere.membrane outer A 1 inner A 1"), "cannot open file nowhere.membrane"),
+    (coeff("1 1 10.0 0.0 stiffness 1.0"), "Unknown pair_coeff helfrich keyword stiffness; known are: kg, leaflets, tension"),
 ]
 
 # a membrane that grows: its stencils reach beyond the ghosts of a rank

@@ -1,0 +1,149 @@
+"""fix hd/lipids: whole lipids on faces, their exchange, and what commands between two runs do to them."""
+# cost: 15
+
+from lammps_claims import LONG, MPIEXEC, claim, error_of, finish, run, thermo
+
+KINDS = "library A 0.020 0.9 library B 0.031 -0.7 library C 0.026 0.1"
+ATOMS = """
+units           lj
+atom_style      membrane_cp
+region          box block -3 3 -3 3 -3 3
+create_box      1 box angle/types 1
+create_membrane 1 sphere 2 1.5
+set             type 1 mass 1.0
+displace_atoms  all random 0.02 0.02 0.02 4711
+pair_style      helfrich
+"""
+COEFF = "pair_coeff 1 1 20.0 0.05 area 100 init regularize 10 {more} lipids NULL outer A 50 B 30 C 20 inner B 40 A 60 " + KINDS + "\n"
+OUTPUT = """
+compute         n all membrane/lipids
+compute         l all membrane/lipids outer A inner B curvature
+compute         s all reduce sum c_l[1] c_l[2] c_l[3] inputs local
+compute         q all reduce sumsq c_l[1] c_l[2] c_l[3] inputs local
+thermo_style    custom step pe econserve f_x f_x[1] f_x[2] f_x[3] c_n[1] c_n[2] c_n[3] c_n[4] c_n[5] c_n[6] c_s[1] c_s[2] c_s[3] c_q[1] c_q[2] c_q[3]
+thermo_modify   norm no format float %.17g
+thermo          10
+"""
+NUMBERS = [f"c_n[{k}]" for k in range(1, 7)]
+PLACES = [f"c_{c}[{k}]" for c in "sq" for k in (1, 2, 3)]
+MOVES = "diffuse 0.5 flip 0.5 global 0.5 interaction A B 0.3"
+RANKS = (1, 2, 4) if MPIEXEC else (1,)
+
+
+def start(more="", moves=MOVES, integrator="fix i all hd/langevin 1.0 1.0 1.0 4711\n", every=5):
+    return (ATOMS + COEFF.format(more=more) + integrator +
+            f"fix x all hd/lipids {every} 1.0 99 {moves}\ntimestep 0.001\n" + OUTPUT)
+
+
+def numbers(row):
+    return [row[k] for k in NUMBERS]
+
+
+def places(row):
+    return [row[k] for k in PLACES]
+
+
+def same_places(row, other, times=1.0):
+    return numbers(row) == [times * n for n in numbers(other)] and all(
+        abs(a - times * b) < 1e-11 * (1.0 + abs(a)) for a, b in zip(places(row), places(other)))
+
+
+# === Numbers
+
+first = {}
+for ranks in RANKS:
+    rows = thermo(run(start(moves="diffuse 0.5 global 0.5 interaction A B 0.3") + "run 50\n", ranks=ranks))
+    claim(f"{ranks} rank(s): numbers of all kinds in both leaflets stay, and places do not",
+          all(numbers(row) == numbers(rows[0]) for row in rows) and places(rows[0]) != places(rows[-1]), numbers(rows[0]))
+    first[ranks] = rows
+    same = numbers(rows[0]) == numbers(first[1][0]) and places(rows[1])[:2] == places(first[1][1])[:2]
+    claim("  they are those of one rank, and so are the places after two visits", same)
+
+total = sum(numbers(first[1][0])[:3])
+for k, part in enumerate((0.5, 0.3, 0.2)):
+    claim(f"  the outer leaflet has its part of kind {k + 1}, to one lipid",
+          abs(first[1][0][f"c_n[{k + 1}]"] - part * total) <= 1.0, first[1][0][f"c_n[{k + 1}]"])
+
+rows = thermo(run(start() + "run 50\n"))
+pairs = [[row[f"c_n[{k}]"] + row[f"c_n[{k + 3}]"] for k in (1, 2, 3)] for row in rows]
+claim("with flips numbers of both leaflets together stay, and those of one do not",
+      all(p == pairs[0] for p in pairs) and numbers(rows[0]) != numbers(rows[-1]))
+
+run(start(moves="global 1") + "fix a all ave/time 1 20 20 c_n[1] c_n[2] c_n[3] c_n[4] mode vector file columns.txt\nrun 20\n")
+table = [[float(word) for word in line.split()[1:]] for line in open("columns.txt").readlines()[-6:]]
+claim("compute: columns of the array over leaflets and kinds, to average",
+      len(table) == 6 and [row[0] for row in table] == numbers(first[1][0]) and
+      all(abs(sum(row[1] for row in table[k:k + 3]) - 1.0) < 1e-5 for k in (0, 3)) and
+      all(abs(row[3]) < 1.0 and abs(row[2] - 2 / 1.5) < 0.2 for row in table if row[0] > 0), table[0])
+
+# === The energy of swaps is that of the membrane, whatever else it has
+
+for more in ("", "leaflets 0.2", "leaflets 0.2 kg -5 volume 10 init"):
+    rows = thermo(run(start(more, moves="diffuse 0.5 flip 0.5 global 0.5", integrator="") + "run 20\n"))
+    error = max(abs(row["Econserve"] - rows[0]["Econserve"]) for row in rows)
+    moved = abs(rows[-1]["PotEng"] - rows[0]["PotEng"])
+    claim(f"a membrane at rest{', ' + more if more else ''}: its energy changes by what fix hd/lipids says",
+          error < 1e-9 * abs(rows[0]["PotEng"]) + 1e-8 and moved > 0.5, f"{error:.1e} of {moved:.2g}")
+
+# === Restart, and commands between two runs
+
+whole = thermo(run(start() + "run 20\nwrite_restart between.restart\nrun 20\n"))
+again = start().split("pair_style")[0].split("units")[0] + "read_restart between.restart\n" + start().split("pair_style      helfrich\n")[1].split("\n", 1)[1]
+for ranks in RANKS[:2]:
+    rows = thermo(run(again + "run 20\n", ranks=ranks))
+    if ranks == 1:
+        claim("restart: energies and places of all lipids are bitwise those of one run",
+              [list(row.values()) for row in rows[-2:]] == [list(row.values()) for row in whole[-2:]],
+              f"{rows[-1]['PotEng']:.17g} {whole[-1]['PotEng']:.17g}")
+    else:
+        claim("restart on two ranks: the same numbers", numbers(rows[0]) == numbers(whole[2]) and
+              places(rows[0])[:2] == places(whole[2])[:2])
+
+rows = thermo(run(start() + "run 20\nreplicate 2 1 1\nrun 0\nrun 20\n"))
+claim("replicate: copies have the lipids of their original, face by face",
+      same_places(rows[3], rows[2], 2.0))
+claim("  and twice its energy", abs(rows[3]["PotEng"] - 2.0 * rows[2]["PotEng"]) < 1e-9 * abs(rows[2]["PotEng"]))
+claim("  and move on", places(rows[-1]) != places(rows[3]))
+
+rows = thermo(run(start() + "run 20\nreplicate 2 1 1\nwrite_restart copies.restart\nrun 0\n"))
+claim("  also if a restart file is written in between", same_places(rows[3], rows[2], 2.0))
+rows = thermo(run(again.replace("between", "copies") + "run 0\n"))
+claim("  and in that file", same_places(rows[0], whole[2], 2.0))
+
+rows = thermo(run(start() + "run 20\nreset_atoms id\nrun 0\nreset_timestep 0\nrun 20\n"))
+claim("reset_atoms id: lipids stay on their faces", same_places(rows[3], rows[2]))
+claim("reset_timestep: other noise than in the first run", rows[-1]["f_x[1]"] != 2.0 * rows[2]["f_x[1]"] and
+      rows[-1]["f_x[3]"] == 8.0 and numbers(rows[4]) == numbers(rows[2]), rows[-1]["f_x[3]"])
+
+TWO = start().replace("create_membrane 1 sphere 2 1.5\n", "create_membrane 1 sphere 2 1.0 center -1.5 0 0\ncreate_membrane 1 sphere 2 1.1 center 1.5 0 0\n")
+TWO = TWO.replace("compute         n all", "group second molecule 2\ncompute         n second").replace("compute         l all", "compute         l second")
+rows = thermo(run(TWO + "run 20\ngroup first molecule 1\ndelete_atoms group first\nrun 0\nrun 20\n"))
+claim("delete_atoms of one of two membranes: the other keeps its lipids",
+      same_places(rows[3], rows[2]), numbers(rows[3]))
+
+# === Bad input
+
+for text, script in {
+        "has no lipids to exchange; say lipids in pair_coeff 1 1":
+            start().replace(COEFF.format(more=""), "pair_coeff 1 1 20.0 0.0 regularize 10\n").replace("interaction A B 0.3", ""),
+        "interaction: no membrane has the lipid D; they have: A": start(moves="diffuse 1 interaction A D 0.3"),
+        "temperature -1.0 must be positive": start().replace("hd/lipids 5 1.0", "hd/lipids 5 -1.0"),
+        "N 0 must be a number of steps": start(every=0),
+        "seed 0 must be positive": start().replace("1.0 99 ", "1.0 0 "),
+        "diffuse -1 must not be negative": start(moves="diffuse -1"),
+        "Unknown fix hd/lipids keyword swap; known are: diffuse, flip, global, interaction": start(moves="swap 1"),
+        "There are several fixes hd/lipids": start() + "fix y all hd/lipids 5 1.0 99 global 1\n",
+        "control points of membrane 1; use a group": start().replace("fix x all", "group some id < 50\nfix x some"),
+        "no single lipids are on faces; use fix hd/lipids": start() + "unfix x\nthermo_style custom step c_n[1]\n",
+        "no membrane has the lipid D": start().replace("outer A inner B curvature", "outer D inner B curvature"),
+        "Unknown compute membrane/lipids keyword top": start().replace("outer A inner B", "top A"),
+}.items():
+    line = error_of(script + "run 5\n")
+    claim(f"error: ... {text} ...", text in line, "" if text in line else line)
+
+if LONG:
+    rows = thermo(run(start(moves="diffuse 50 global 40") + "run 5000\n"))
+    claim("numbers stay over 1e7 moves", all(numbers(row) == numbers(rows[0]) for row in rows) and
+          rows[-1]["f_x[1]"] > 1e7, rows[-1]["f_x[1]"])
+
+finish()
