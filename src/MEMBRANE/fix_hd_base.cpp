@@ -65,12 +65,13 @@ FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
     noise_steps(0), noise_seed(0), noise_step(-1), noise_numbering(-1), most_drift(0.0),
     moved_step(-1), drawn_for(-1), passes(0), forces_due(false), remembers(false), check(true), limit_due(false), limit(0.0),
-    watching(false), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style)),
+    watching(false), held_reference(-1), taken_back(0), tried_here(0),
+    taken_back_here(0), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style)),
     settled_step(-1), measured_step(-1)
 {
   time_integrate = 1;
   vector_flag = global_freq = 1;
-  size_vector = 2;
+  size_vector = 3;
   extvector = 0;
   measure.groupbit = groupbit;
 }
@@ -167,6 +168,7 @@ void FixHDBase::setup(int)
   limit_due = check && !respa && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
   watching = check && !respa && update->whichflag == 1 && update->nsteps > 0;
   if (watching) faces->begin();
+  tried_here = taken_back_here = 0;
 }
 
 /* ----------------------------------------------------------------------
@@ -227,6 +229,7 @@ void FixHDBase::accelerate()
 
 double FixHDBase::compute_vector(int i)
 {
+  if (i == 2) return static_cast<double>(taken_back);
   if (passes == 0) return 0.0;    // before the first run
   return i == 0 ? passes : mass.matrix().residual(force_field, acceleration);
 }
@@ -293,7 +296,7 @@ template <bool KICKS> void FixHDBase::move(double kick_step, double step)
     }
     if (!(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < most)) runaway = j;
   }
-  if (runaway >= 0) report_runaway(atom->tag[runaway]);
+  if (runaway >= 0 && !(watching && sampling())) report_runaway(atom->tag[runaway]);
   if (!remembers) return;
 
   if (moved_step != update->ntimestep) moved.assign(part.owned, Vector4{});
@@ -394,6 +397,50 @@ std::string FixHDBase::shape_lost_at(tagint id_of_point)
       ", and the mesh has lost its shape since: edges of the point measure {:.3g} to "
       "{:.3g}; keep it with regularize in pair_coeff",
       std::sqrt(shortest), std::sqrt(longest));
+}
+
+/* ----------------------------------------------------------------------
+   A face that turns over passes an infinite energy, across which a finite step may jump, and next to it forces are
+   such that the next step goes anywhere. Such steps are refused, as in Monte Carlo: the state is the old one with its
+   velocities reversed, and the distribution that all other steps keep is kept, less the forbidden part
+   [A. Horowitz, Phys. Lett. B 268, 247 (1991)]. What is refused is refused on the way back, too.
+------------------------------------------------------------------------- */
+
+void FixHDBase::hold_on()
+{
+  if (!watching || !sampling()) return;
+  const MeshPart &part = mass.part();
+  held.resize(part.owned);
+  for (int i = 0; i < part.owned; ++i) {
+    const int j = part.atom_of(i);
+    std::copy_n(atom->x[j], 3, held[i].data());
+    std::copy_n(atom->v[j], 3, held[i].data() + 3);
+  }
+  held_reference = mass.references();
+  faces->hold();
+}
+
+bool FixHDBase::step_back(double half_kick)
+{
+  if (!watching || !sampling()) return false;
+  ++tried_here;
+  if (!faces->torn()) return false;
+  ++taken_back;
+  ++taken_back_here;
+  if (tried_here >= WORTH_CHECKING && 10 * taken_back_here > tried_here)
+    error->all(FLERR,
+               "Fix {}: {} of {} steps of this run would have torn the mesh and were taken back: the timestep {} is too "
+               "long; hd_timestep finds the limit", style, taken_back_here, tried_here, update->dt);
+  const MeshPart &part = mass.part();
+  const double kick = half_kick * force->ftm2v;
+  for (int i = 0; i < part.owned; ++i) {
+    const int j = part.atom_of(i);
+    std::copy_n(held[i].data(), 3, atom->x[j]);
+    if (held_reference != mass.references()) continue;    // velocities have been drawn for another mass
+    for (int k = 0; k < 3; ++k) atom->v[j][k] = -held[i][3 + k] - kick * acceleration[i].c[k];
+  }
+  if (remembers) moved.assign(part.owned, Vector4{});
+  return true;
 }
 
 bool FixHDBase::renew()

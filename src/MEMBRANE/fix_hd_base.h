@@ -111,6 +111,11 @@ class FixHDBase : public Fix {
   /** Collective, once a step: whether mass sampling is another than in the last step, since the shape has left
       its reference, or at first, so that velocities of before are worth nothing. relax() does so itself. */
   bool renew();
+  /** With mass sampling: a step that would tear the mesh is taken back. Call before the step moves anything, and after.
+      Whether it was: then points are where they were, and velocities such that after the last half kick of the step
+      they are the opposite of those before it, if half_kick is that kick's time. Stops if that happens often. */
+  void hold_on();
+  bool step_back(double half_kick);
   /// v = M^-1 f + spread (noise1 + noise2), where M is a drag matrix: forces and drag balance.
   void balance(double spread, const Membrane_NS::VertexField &noise1, const Membrane_NS::VertexField &noise2);
 
@@ -125,6 +130,10 @@ class FixHDBase : public Fix {
   bool remembers, check, limit_due;
   double limit;    // of stability for the timestep, when a run last began; 0 if not known
   bool watching;
+  std::vector<std::array<double, 6>> held;    // x and v of owned points
+  int64_t held_reference;                     // of the mass matrix then
+  bigint taken_back;                          // steps
+  bigint tried_here, taken_back_here;         // in this run
   std::unique_ptr<class FaceWatch> faces;
 
   void check_other_integrators();

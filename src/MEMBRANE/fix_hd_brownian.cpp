@@ -117,7 +117,9 @@ void FixHDBrownian::initial_integrate(int)
 
   const double kT = force->boltz * temperature / force->mvv2e;
   balance(std::sqrt(0.5 * kT / dt), noise, unit_noise());
+  hold_on();
   drift(dt);
+  step_back(0.0);
 }
 
 void FixHDBrownian::reset_target(double t_new)

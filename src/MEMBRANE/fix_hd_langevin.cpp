@@ -131,9 +131,12 @@ void FixHDLangevin::reset_dt()
 void FixHDLangevin::initial_integrate(int)
 {
   set_measure();
+  hold_on();
+  const double bath = energy;
   kick_and_drift(0.5 * dt, 0.5 * dt);
   thermalize();
   drift(0.5 * dt);
+  if (step_back(0.5 * dt)) energy = bath;
 }
 
 void FixHDLangevin::final_integrate()

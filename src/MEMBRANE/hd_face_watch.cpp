@@ -18,6 +18,7 @@
 #include "hd_face_watch.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "membrane_regularization.h"
@@ -33,6 +34,9 @@ static constexpr double LEAST_UPRIGHT = 1.0 / 50.0;
 static constexpr double LEAST_FRACTION = 0.25;
 
 static constexpr bigint PATIENCE = 10000;
+
+// of an edge in a step of mass sampling
+static constexpr double MOST_STRAIN = 0.5;
 
 /* ---------------------------------------------------------------------- */
 
@@ -145,7 +149,47 @@ void FaceWatch::check(bool due)
                  bad_since + patience);
 }
 
+std::array<double, 9> FaceWatch::edges(const Watched &watched) const
+{
+  std::array<double, 9> result;
+  for (int k = 0; k < 3; ++k) {
+    const double *a = atom->x[watched.corner[k]], *b = atom->x[watched.corner[(k + 1) % 3]];
+    for (int c = 0; c < 3; ++c) result[3 * k + c] = b[c] - a[c];
+  }
+  return result;
+}
+
+void FaceWatch::hold()
+{
+  if (mesh.follow() != MeshChange::NOTHING) localize();
+  held.resize(faces.size());
+  for (size_t i = 0; i < faces.size(); ++i) held[i] = edges(faces[i]);
+}
+
+// |after - before|^2 over |after| |before|, so that neither is before the other
+
+bool FaceWatch::torn()
+{
+  comm->forward_comm();
+  int mine = 0, any;
+  for (size_t i = 0; i < faces.size() && !mine; ++i) {
+    mine = !(uprightness(faces[i]) >= least[faces[i].face]);
+    const auto before = held[i], after = edges(faces[i]);
+    for (int k = 0; k < 9; k += 3) {
+      double change = 0.0, was = 0.0, is = 0.0;
+      for (int c = k; c < k + 3; ++c) {
+        change += (after[c] - before[c]) * (after[c] - before[c]);
+        was += before[c] * before[c];
+        is += after[c] * after[c];
+      }
+      if (!(change < MOST_STRAIN * MOST_STRAIN * std::sqrt(was * is))) mine = 1;
+    }
+  }
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
+}
+
 double FaceWatch::memory_usage() const
 {
-  return sizeof(Watched) * faces.capacity() + sizeof(double) * least.capacity();
+  return sizeof(Watched) * faces.capacity() + sizeof(held[0]) * held.capacity() + sizeof(double) * least.capacity();
 }

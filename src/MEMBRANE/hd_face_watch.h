@@ -16,6 +16,7 @@
 
 #include "mesh_local.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,11 @@ class FaceWatch : protected Pointers {
   void begin();
   /// Every step, likewise: looks at this rank's faces if that is due.
   void check(bool due);
+  /// Remembers edges before a step, when ghosts are where they belong.
+  void hold();
+  /** Collective; when control points have moved since and ghosts have not: whether check() would warn of a face, or an
+      edge has changed by half of itself or more. Forth and back such a step is the same. */
+  bool torn();
   double memory_usage() const;
 
  private:
@@ -58,11 +64,13 @@ class FaceWatch : protected Pointers {
   bigint bad_since;    // when faces of this rank became bad, or -1
   bool warned;
   std::vector<Watched> faces;
+  std::vector<std::array<double, 9>> held;    // edges of these
   std::vector<double> least;    // by face of the topology: what it must not fall below
 
   void localize();
   void judge_start();
   double uprightness(const Watched &) const;
+  std::array<double, 9> edges(const Watched &) const;
 };
 
 }    // namespace LAMMPS_NS
