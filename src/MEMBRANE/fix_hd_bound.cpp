@@ -208,7 +208,8 @@ void FixHDBound::find_members()
                "Fix hd/bind: atom {} of its group is not bound: atoms that come in a run or lose their "
                "membrane are bound when the next run begins",
                any);
-  const bigint count = static_cast<bigint>(members.size()), before = total;
+  const bigint before = total;
+  bigint count = static_cast<bigint>(members.size());    // LAMMPS without MPI takes no const
   MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (!update->setupflag && update->whichflag && total != before)
     error->all(FLERR, "Fix hd/bind: {} of {} bound atoms are left in the middle of a run: do others overlap, or is the timestep "
