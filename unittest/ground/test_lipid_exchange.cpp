@@ -19,6 +19,7 @@
 
 #include <iostream>
 #include <numeric>
+#include <tuple>
 
 using namespace Membrane_TEST;
 
@@ -475,9 +476,31 @@ TEST(LipidInteraction, ContactsWithinAFaceAreThreeHalvesOfALipidLessThoseAcrossI
   EXPECT_NEAR(exchange.energy(), 1.5 * (9.0 - 3.0) * 4.0 * 5.0 / 36.0, 1e-12);
 }
 
-/// Mean of s s' over edges of a sheet with one lipid a face, half of each kind, and the structure factor of
-/// the longest waves.
-std::array<double, 2> honeycomb(double w, int size)
+/// A mean and its standard error, from twelve blocks of a run.
+struct Measured {
+  double mean, error;
+};
+
+Measured of_blocks(const std::vector<double> &samples)
+{
+  constexpr int BLOCKS = 12;
+  const size_t length = samples.size() / BLOCKS;
+  std::vector<double> means(BLOCKS);
+  for (int b = 0; b < BLOCKS; ++b)
+    means[b] = std::accumulate(&samples[b * length], &samples[b * length] + length, 0.0) / length;
+  const double mean = std::accumulate(means.begin(), means.end(), 0.0) / BLOCKS;
+  double squares = 0.0;
+  for (const double m : means) squares += (m - mean) * (m - mean);
+  return {mean, std::sqrt(squares / BLOCKS / (BLOCKS - 1))};
+}
+
+struct Honeycomb {
+  Measured bonds;    // mean of s s' over edges
+  Measured waves;    // structure factor of the longest waves
+};
+
+/// A sheet with one lipid a face, half of each kind.
+Honeycomb honeycomb(double w, int size)
 {
   const TriangleMesh mesh = flat(size, 1.0);
   const int nfaces = static_cast<int>(mesh.faces.size());
@@ -486,15 +509,17 @@ std::array<double, 2> honeycomb(double w, int size)
   exchange.set_interaction({0.0, w, w, 0.0});
   const std::vector<double> weights(exchange.edges().size(), 1.0);
   const auto centres = circumcentres(mesh);
-  const int sweeps = how_many(3000, 300);
-  double bonds = 0.0, waves = 0.0;
-  int samples = 0;
+  const int sweeps = how_many(3000, 30000);
+  std::vector<double> bonds, waves;
   for (int i = 0; i < sweeps; ++i) {
     exchange.swap_anywhere(0, nfaces, 1.0, CounterRandom(7, 2 * i));
     exchange.swap_neighbors(0, nfaces, weights, 1.0, CounterRandom(7, 2 * i + 1));
     if (i < sweeps / 5) continue;
     const auto spin = [&](int f) { return 1.0 - 2.0 * exchange.lipids().kind(0, f); };
-    for (const LipidEdge &e : exchange.edges()) bonds += spin(e.face[0]) * spin(e.face[1]) / exchange.edges().size();
+    double sum = 0.0;
+    for (const LipidEdge &e : exchange.edges()) sum += spin(e.face[0]) * spin(e.face[1]);
+    bonds.push_back(sum / exchange.edges().size());
+    sum = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
       double c = 0.0, s = 0.0;
       const double k = 2.0 * PI / mesh.lattice(axis, axis);
@@ -502,11 +527,11 @@ std::array<double, 2> honeycomb(double w, int size)
         c += spin(f) * std::cos(k * centres[f][axis]);
         s += spin(f) * std::sin(k * centres[f][axis]);
       }
-      waves += (c * c + s * s) / nfaces / 2.0;
+      sum += (c * c + s * s) / nfaces / 2.0;
     }
-    ++samples;
+    waves.push_back(sum);
   }
-  return {bonds / samples, waves / samples};
+  return {of_blocks(bonds), of_blocks(waves)};
 }
 
 /** One lipid a face is the Ising model on the honeycomb lattice: w = 2 J, critical at J/kT = ln(2 + sqrt(3))/2
@@ -517,12 +542,17 @@ TEST(LipidInteraction, TwoKindsSeparateAboveTheCriticalStrengthOfTheHoneycombAnd
   const auto below = honeycomb(0.8 * critical, 24), small_below = honeycomb(0.8 * critical, 12);
   const auto at = honeycomb(critical, 24), small_at = honeycomb(critical, 12);
   const auto above = honeycomb(1.2 * critical, 24), small_above = honeycomb(1.2 * critical, 12);
-  std::cout << "longest waves of 12 x 12 and 24 x 24: below " << small_below[1] << " " << below[1] << ", above "
-            << small_above[1] << " " << above[1] << "; <ss'> critical " << small_at[0] << " " << at[0] << "\n";
-  EXPECT_LT(below[1], 1.5 * small_below[1]);    // waves do not know the size of the sheet, domains do
-  EXPECT_GT(above[1], 2.5 * small_above[1]);
+  for (const auto &[name, small, large] : {std::tuple{"below", small_below.waves, below.waves},
+                                           std::tuple{"above", small_above.waves, above.waves},
+                                           std::tuple{"<s s'> at the critical strength", small_at.bonds, at.bonds}})
+    std::cout << name << ": " << small.mean << "(" << small.error << ") " << large.mean << "(" << large.error << ")\n";
+
+  // waves do not know the size of the sheet, domains do
+  EXPECT_LT(below.waves.mean, 1.5 * small_below.waves.mean + 3.0 * std::hypot(below.waves.error, 1.5 * small_below.waves.error));
+  EXPECT_GT(above.waves.mean, 2.5 * small_above.waves.mean);
   // equal numbers of both kinds: the deviation falls with the length of the sheet
-  EXPECT_NEAR(2.0 * at[0] - small_at[0], 4.0 / (3.0 * std::sqrt(3.0)), 0.03);
+  EXPECT_NEAR(2.0 * at.bonds.mean - small_at.bonds.mean, 4.0 / (3.0 * std::sqrt(3.0)),
+              0.01 + 3.0 * std::hypot(2.0 * at.bonds.error, small_at.bonds.error));
 }
 
 }    // namespace
