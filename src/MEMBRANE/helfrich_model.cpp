@@ -168,6 +168,7 @@ void HelfrichModel::choose()
     needs.volume = needs.volume || more.volume;
     needs.curvature = needs.curvature || more.curvature;
     needs.gauss = needs.gauss || more.gauss;
+    needs.places = needs.places || more.places;
     needs.origins = needs.origins || more.origins;
   }
 
@@ -277,6 +278,8 @@ void HelfrichModel::describe_faces(const std::vector<FaceGroup> &groups, FaceMod
 void HelfrichModel::measure(const Wanted &wanted)
 {
   const bool volume = needs.volume || (wanted.total_volume && reports_volume);
+  if (needs.places && !volume) scene.totals.place(scene.groups, scene.model);
+  if (!needs.totals && !volume) return;
   scene.totals.measure(scene.groups, scene.model, scene.integrals, {volume, needs.curvature});
   for (HelfrichTerm *term : present) term->take_references(scene);
   if (!update->setupflag) return;
@@ -332,7 +335,7 @@ bool HelfrichModel::prepare(const Wanted &wanted)
     load(scene.groups, scene.model);
 
   const bool first_pass = needs.totals || (wanted.total_volume && reports_volume);
-  if (first_pass) measure(wanted);
+  measure(wanted);
   if (needs.totals) act();
   return first_pass;
 }

@@ -102,6 +102,7 @@ class HelfrichTerm : protected Pointers {
     bool volume = false;       ///< and volume
     bool curvature = false;    ///< and integral of 2H
     bool gauss = false;        ///< the integral of K
+    bool places = false;       ///< the model's origins in the middle of components
     bool origins = false;      ///< which membranes are those of an earlier run
     bool regularize = false;   ///< faces that regularize keeps in shape
   };

@@ -61,6 +61,12 @@ class RegularizeTerm : public TermWith<Coefficients> {
 
   bool acts_on(int type) const override { return modulus_of(type) != 0.0; }
   void choose(const HelfrichScene &) override;
+  Needs needs() const override
+  {
+    Needs result;
+    result.places = !dipoles.empty();
+    return result;
+  }
   void localize(const std::vector<FaceGroup> &, FaceModel &) override;
   void add_forces(HelfrichScene &, const double (*)[3], double (*)[3]) override;
   void tally(const HelfrichScene &, HelfrichTally &) const override;
@@ -89,6 +95,8 @@ class RegularizeTerm : public TermWith<Coefficients> {
   {
     return by_type[type].given ? by_type[type].modulus : unless_given;
   }
+  bool is_conformal(int type) const { return by_type[type].conformal && by_type[type].active(); }
+
   // of conformal: families of parallel edges, see edge_families(), with a number by component, or -1
 
   std::vector<int> families, number;
@@ -96,7 +104,14 @@ class RegularizeTerm : public TermWith<Coefficients> {
   std::vector<int> family;                      // by slot and edge: 3 number + 0, 1 or 2, or -1
   std::vector<double> logs, my_sums, sums;
 
+  // of conformal: components that are spheres by topology have a number, others -1
+
+  std::vector<int> sphere, sphere_of;    // by component, and by slot
+  std::vector<Membrane_NS::PointDipole> dipoles;
+
   void find_across(const HelfrichScene &, const double (*)[3]);
+  void find_spheres(const HelfrichScene &);
+  void measure_dipoles(const HelfrichScene &, const double (*)[3]);
   void measure_cross_ratios(const HelfrichScene &, const double (*)[3]);
 };
 
@@ -112,6 +127,7 @@ void RegularizeTerm::choose(const HelfrichScene &scene)
     if (families[f] >= 0 && mine < 0) mine = count++;
   }
   sums.assign(6 * static_cast<size_t>(count), 0.0);
+  find_spheres(scene);
 
   unless_given = 0.0;
   for (auto &fix : modify->get_fix_list()) {
@@ -119,6 +135,21 @@ void RegularizeTerm::choose(const HelfrichScene &scene)
     if (const void *wanted = fix->extract("default_regularize", dim))
       unless_given = MAX(unless_given, *static_cast<const double *>(wanted));
   }
+}
+
+void RegularizeTerm::find_spheres(const HelfrichScene &scene)
+{
+  const auto &topology = scene.mesh->topology();
+  sphere.assign(topology.num_components(), 0);
+  for (int f = 0; f < topology.num_faces(); ++f) ++sphere[topology.component(topology.face(f)[0])];
+  int count = 0;
+  for (int c = 0; c < topology.num_components(); ++c) {
+    const bool round = 2 * topology.num_vertices(c) - sphere[c] == 4;    // twice Euler's characteristic
+    const auto &types = scene.types[scene.mesh->membrane(c)];
+    const bool here = std::any_of(types.begin(), types.end(), [this](int type) { return is_conformal(type); });
+    sphere[c] = round && here ? count++ : -1;
+  }
+  dipoles.resize(count);
 }
 
 void RegularizeTerm::localize(const std::vector<FaceGroup> &groups, FaceModel &)
@@ -200,6 +231,21 @@ void RegularizeTerm::measure_cross_ratios(const HelfrichScene &scene, const doub
   });
 }
 
+/* ---------------------------------------------------------------------- */
+
+void RegularizeTerm::measure_dipoles(const HelfrichScene &scene, const double (*x)[3])
+{
+  sphere_of.assign(conformal.size(), -1);
+  std::vector<Membrane_NS::PointDipole> mine(dipoles.size());
+  for (const FaceGroup &group : scene.groups) {
+    for (int s = 0; s < group.nfaces; ++s)
+      sphere_of[group.first_slot + s] = sphere[scene.totals.component_of(group, s)];
+    Membrane_NS::add_dipoles(group, x, scene.model.origin, conformal, sphere_of, mine);
+  }
+  static_assert(sizeof(Membrane_NS::PointDipole) == 9 * sizeof(double), "sums are added up as an array");
+  MPI_Allreduce(mine.data(), dipoles.data(), static_cast<int>(9 * mine.size()), MPI_DOUBLE, MPI_SUM, world);
+}
+
 /* ----------------------------------------------------------------------
    stops before a face collapses
 ------------------------------------------------------------------------- */
@@ -208,12 +254,15 @@ void RegularizeTerm::add_forces(HelfrichScene &scene, const double (*x)[3], doub
 {
   if ((any_conformal || any_families) && !across_known) find_across(scene, x);
   if (any_conformal || any_families) measure_cross_ratios(scene, x);
+  if (!dipoles.empty()) measure_dipoles(scene, x);
   energy.assign(scene.energies.area.size(), 0.0);
   auto &virial = scene.energies.virial;
   for (const FaceGroup &group : scene.groups) {
     double worst = Membrane_NS::regularize_faces(group, x, modulus, f, energy, virial);
     if (any_conformal)
       worst = std::max(worst, Membrane_NS::conformal_faces(group, x, conformal, across, logs, f, energy, virial));
+    if (!dipoles.empty())
+      Membrane_NS::hold_dipoles(group, x, scene.model.origin, sphere_of, dipoles, f, energy, virial);
     if (worst < WORST_FACE || (update->whichflag == 2 && std::isfinite(worst))) continue;
     for (int s = 0; s < group.nfaces; ++s)
       if (!(Membrane_NS::face_distortion(x[group.point(s, 0)], x[group.point(s, 1)],

@@ -220,3 +220,67 @@ double Membrane_NS::conformal_faces(const FaceGroup &group, const double (*x)[3]
   }
   return worst;
 }
+
+/* ---------------------------------------------------------------------- */
+
+// so that the two ends of a sphere differ in density by a factor of 1.5 or so at K = 20 kT
+static constexpr double DIPOLE = 10.0;
+
+void Membrane_NS::add_dipoles(const FaceGroup &group, const double (*x)[3],
+                              const std::vector<double> &origin, const std::vector<double> &modulus,
+                              const std::vector<int> &component, std::vector<PointDipole> &dipoles)
+{
+  for (int s = 0; s < group.nfaces; ++s) {
+    const size_t slot = group.first_slot + s;
+    if (component[slot] < 0) continue;
+    PointDipole &dipole = dipoles[component[slot]];
+    const FaceCorners corners(group, s, x);
+    const Vector3d *p = corners.place;
+    const Vector3d centre = (p[0] + p[1] + p[2]) / 3.0 - Map<const Vector3d>(&origin[3 * slot]);
+    const double area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+    dipole.faces += 1.0;
+    dipole.area += area;
+    dipole.modulus += modulus[slot];
+    dipole.centres += centre;
+    dipole.weighted += area * centre;
+  }
+}
+
+void Membrane_NS::hold_dipoles(const FaceGroup &group, const double (*x)[3],
+                               const std::vector<double> &origin, const std::vector<int> &component,
+                               const std::vector<PointDipole> &dipoles, double (*f)[3],
+                               std::vector<double> &energy, std::vector<double> &virial)
+{
+  constexpr double FOUR_PI = 4.0 * M_PI;
+  for (int s = 0; s < group.nfaces; ++s) {
+    const size_t slot = group.first_slot + s;
+    if (component[slot] < 0) continue;
+    const PointDipole &dipole = dipoles[component[slot]];
+    const Vector3d d = dipole.moment();
+    const double stiffness = DIPOLE * FOUR_PI / dipole.area * dipole.modulus / dipole.faces;
+    if (!energy.empty()) energy[slot] += stiffness * d.squaredNorm() / dipole.faces;
+
+    const FaceCorners corners(group, s, x);
+    const Vector3d *p = corners.place;
+    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    const double area = 0.5 * normal.norm();
+    const Vector3d centre = (p[0] + p[1] + p[2]) / 3.0 - Map<const Vector3d>(&origin[3 * slot]) -
+        dipole.weighted / dipole.area;
+
+    // dE = stiffness (2 d.dd - d^2 dA/A): its corners move the face as a whole, and change its area
+
+    const Vector3d whole = -2.0 * stiffness * (1.0 / dipole.faces - area / dipole.area) * d;
+    const double tension = stiffness * (2.0 * d.dot(centre) + d.squaredNorm()) / dipole.area;
+    double *v = of_slot(virial, slot);
+    corners.add({tension / (4.0 * area) * normal.cross(p[2] - p[1]), tension / (4.0 * area) * normal.cross(p[0] - p[2])}, f, v);
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) f[corners.point[k]][i] += whole[i] / 3.0;
+    if (!v) continue;
+    v[0] += centre[0] * whole[0];
+    v[1] += centre[1] * whole[1];
+    v[2] += centre[2] * whole[2];
+    v[3] += centre[0] * whole[1];
+    v[4] += centre[0] * whole[2];
+    v[5] += centre[1] * whole[2];
+  }
+}

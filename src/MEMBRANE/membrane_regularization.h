@@ -49,9 +49,36 @@ double conformal_faces(const FaceGroup &group, const double (*x)[3],
                        const std::vector<double> &modulus, const std::vector<int> &across,
                        const std::vector<double> &logs, double (*f)[3], std::vector<double> &energy,
                        std::vector<double> &virial);
+
 /// ln c of the edges, where there is a modulus.
 void cross_ratios(const FaceGroup &group, const double (*x)[3], const std::vector<double> &modulus,
                   const std::vector<int> &across, std::vector<double> &logs);
+
+/** On which side of a closed component its points gather. Conformal maps of a sphere onto itself take them to any
+    pole at no cost in cross ratios, and nothing but a small part of regularize_faces() resists. So a component of F
+    faces with the areas A_f and the centres c_f, together A, has the energy
+
+      10 K 4 pi |d|^2/A,   d = sum over faces of (1/F - A_f/A) c_f,
+
+    which depends on neither size nor attitude nor place. Sums, over a rank's faces and then over all: */
+struct PointDipole {
+  double faces = 0.0, area = 0.0;
+  double modulus = 0.0;                                      ///< of K
+  Eigen::Vector3d centres = Eigen::Vector3d::Zero();         ///< of c_f
+  Eigen::Vector3d weighted = Eigen::Vector3d::Zero();        ///< of A_f c_f
+
+  Eigen::Vector3d moment() const { return centres / faces - weighted / area; }
+};
+
+/// component: [slots], which dipole a face belongs to, or -1; origin: [slots][3], any point that all faces of a
+/// component share, in the periodic image that the face is in.
+void add_dipoles(const FaceGroup &group, const double (*x)[3], const std::vector<double> &origin,
+                 const std::vector<double> &modulus, const std::vector<int> &component,
+                 std::vector<PointDipole> &dipoles);
+/// What the dipoles do; each face has an equal share of the energy. The rest is as of regularize_faces().
+void hold_dipoles(const FaceGroup &group, const double (*x)[3], const std::vector<double> &origin,
+                  const std::vector<int> &component, const std::vector<PointDipole> &dipoles, double (*f)[3],
+                  std::vector<double> &energy, std::vector<double> &virial);
 
 /** Edges that run in the same direction: where all points of a component have valence 6 it is made of three
     families of parallel lines, as a sheet through the box is. By face, the family 0, 1 or 2 of the edge from

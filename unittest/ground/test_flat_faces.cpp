@@ -106,6 +106,33 @@ FlatScene plain(const TriangleMesh &mesh)
   return scene;
 }
 
+// regularize conformal on one component: where its points gather
+
+FlatScene dipole(const TriangleMesh &mesh)
+{
+  FlatScene scene(mesh);
+  scene.kernel = [](const FlatScene &s, const FaceGroup &group, auto x, auto f, auto &e, auto &v) {
+    const std::vector<int> component(s.modulus.size(), 0);
+    std::vector<double> origin;
+    for (size_t slot = 0; slot < s.modulus.size(); ++slot) origin.insert(origin.end(), {0.3, -5.0, 2.0});
+    std::vector<PointDipole> dipoles(1);
+    for (const FaceGroup &each : s.groups) add_dipoles(each, x, origin, s.modulus, component, dipoles);
+    hold_dipoles(group, x, origin, component, dipoles, f, e, v);
+  };
+  return scene;
+}
+
+// A map of the sphere onto itself that moves it towards a pole: x -> conformal, another scale in every place
+
+Points boosted(Points points, double boost)
+{
+  for (Vector3d &p : points) {
+    const double g = std::cosh(boost) + std::sinh(boost) * p.z();
+    p = Vector3d(p.x(), p.y(), std::sinh(boost) + std::cosh(boost) * p.z()) / g;
+  }
+  return points;
+}
+
 const auto MESHES = {tetrahedron(), bipyramid(7), flipped(icosphere(2, 1.0), 200, 10, 3)};
 
 // a relative displacement of the mesh, and its virial, against differences of the energy
@@ -182,23 +209,57 @@ TEST(Conformal, DoesNotKnowSizes)
   }
 }
 
-// A map of the sphere onto itself that moves it towards a pole: x -> conformal, another scale in every place
-
 TEST(Conformal, AMoebiusTransformationOfASphereCostsATenthOfWhatItDoesWithoutConformal)
 {
   const TriangleMesh mesh = icosphere(3, 1.0);
   const auto cost = [&](FlatScene scene) {
-    Points moved = mesh.points;
-    const double before = scene.energy(moved), boost = 0.2;
-    for (Vector3d &p : moved) {
-      const double g = std::cosh(boost) + std::sinh(boost) * p.z();
-      p = Vector3d(p.x(), p.y(), std::sinh(boost) + std::cosh(boost) * p.z()) / g;
-    }
-    return scene.energy(moved) - before;
+    const double before = scene.energy(mesh.points);
+    return scene.energy(boosted(mesh.points, 0.2)) - before;
   };
   const double with = cost(conformal(mesh)), without = cost(plain(mesh));
   EXPECT_GT(without, 0.1);
   EXPECT_NEAR(with / without, 0.1, 0.02);
+}
+
+TEST(Dipole, ForcesAndVirialAreThoseOfTheEnergyOnAnyMesh)
+{
+  for (const TriangleMesh &mesh : MESHES)
+    compare_with_differences(dipole(mesh), perturbed(mesh, 0.05, 2).points);
+}
+
+TEST(Dipole, DoesNotKnowSizesAndAttitudes)
+{
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.0, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (const TriangleMesh &mesh : MESHES) {
+    FlatScene scene = dipole(mesh);
+    Points points = perturbed(mesh, 0.05, 2).points;
+    const double before = scene.energy(points);
+    EXPECT_GT(before, 0.0);
+    EXPECT_NEAR(scene.virial.head<3>().sum(), 0.0, 1e-11 * before);
+    for (Vector3d &p : points) p = 3.0 * turn * p + Vector3d(5, -7, 11);
+    EXPECT_NEAR(scene.energy(points), before, 1e-11 * before);
+  }
+}
+
+// x -> x + b (1 - x x).e moves the mean of the points by 2b/3, and areas do not change where their centre is
+
+TEST(Dipole, AMoebiusTransformationCostsWhatTheSphereSays)
+{
+  const TriangleMesh mesh = icosphere(4, 1.0);
+  FlatScene scene = dipole(mesh);
+  EXPECT_NEAR(scene.energy(mesh.points), 0.0, 1e-12);
+  const double boost = 0.05;
+  EXPECT_NEAR(scene.energy(boosted(mesh.points, boost)) / (10.0 * 1.7 * 4.0 / 9.0 * boost * boost), 1.0, 0.01);
+  EXPECT_GT(scene.energy(boosted(mesh.points, 0.2)), 10.0 * (conformal(mesh).energy(boosted(mesh.points, 0.2)) -
+                                                            conformal(mesh).energy(mesh.points)));
+}
+
+TEST(Dipole, ShapesThatAreTheSameOnBothSidesCostNothing)
+{
+  const TriangleMesh mesh = icosphere(3, 1.0);
+  Points points = mesh.points;
+  for (Vector3d &p : points) p *= 1.0 + 0.2 * p.z() * p.z() + 0.1 * p.x() * p.y();
+  EXPECT_NEAR(dipole(mesh).energy(points), 0.0, 1e-12);
 }
 
 // A pure shear: both moduli are the same, and a tenth is added
