@@ -2,7 +2,7 @@
 
     MEMBRANE_LONG=1    100,000 moves of a cold sheet
 """
-# cost: 40
+# cost: 15
 # timeout: 7200
 
 from lammps_claims import LONG, claim, error_of, finish, lammps, run, thermo

@@ -3,7 +3,7 @@ fluctuations that mass lumped does.
 
     MEMBRANE_LONG=1    twenty times the steps
 """
-# cost: 30
+# cost: 35
 # timeout: 7200
 
 import math
@@ -60,7 +60,7 @@ def compare(one, other):
 
 SCALE = 20 if LONG else 1
 lumped, _ = vesicle("hd/langevin 0.05 0.05 0.5 4711 mass lumped", 0.009, 20000 * SCALE, 10, 4000)
-sampling, output = vesicle("hd/langevin 0.05 0.05 3.0 4712 mass sampling", 0.15, 22000 * SCALE, 5, 1000)
+sampling, output = vesicle("hd/langevin 0.05 0.05 3.0 4712 mass sampling", 0.3, 20000 * SCALE, 4, 1000)
 compare(sampling, lumped)
 v, error = mean_and_error(sampling["reduced volume"][0])
 claim("the reduced volume is 0.65", abs(v - 0.65) < 0.01, f"{v:.4f}({error:.4f})")
