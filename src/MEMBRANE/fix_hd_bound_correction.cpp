@@ -65,10 +65,10 @@ void FixHDBound::correct_metric()
   for (const Foot &foot : feet)
     mine.push_back({{foot.normal[0], foot.normal[1], foot.normal[2]}, 1.0 / mass_of(foot.atom)});
   const std::vector<Particle> all = gather_all(mine, world);
-  const int n = static_cast<int>(all.size()), here = static_cast<int>(feet.size());
-  int first = 0;
-  MPI_Exscan(&here, &first, 1, MPI_INT, MPI_SUM, world);
-  if (comm->me == 0) first = 0;
+  const int n = static_cast<int>(all.size());
+  int here = static_cast<int>(feet.size()), first = 0;
+  MPI_Scan(&here, &first, 1, MPI_INT, MPI_SUM, world);
+  first -= here;
   auto normal = [&](int a) { return Vector3d(all[a].normal[0], all[a].normal[1], all[a].normal[2]); };
 
   // M^-1 c_b at the control points of particles here, and from it rows of C

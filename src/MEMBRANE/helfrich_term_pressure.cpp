@@ -48,7 +48,7 @@ class PressureTerm : public TermOfTotals<Coefficients> {
     c.pressure = words.number(1);
     return 2;
   }
-  double law(const Coefficients &c, tagint, const MeshTotals::Total &total,
+  double law(const Coefficients &c, int, const MeshTotals::Total &total,
              Conjugates &slope) const override
   {
     slope.pressure = -c.pressure;

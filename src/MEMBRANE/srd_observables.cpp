@@ -48,7 +48,7 @@ void SRDObservables::sample(const Scene &scene)
   values[VISCOSITY_IN] = scene.fluid.viscosity(1);
   sample_momentum(scene);
   sample_obstacle(scene);
-  MPI_Allreduce(scene.wall_impulse, values + WALLS, 3, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(const_cast<double *>(scene.wall_impulse), values + WALLS, 3, MPI_DOUBLE, MPI_SUM, world);
   for (int i = 0; i < NUM_VALUES; ++i) values[i] += carried[i];
 }
 
@@ -79,7 +79,7 @@ void SRDObservables::sample_obstacle(const Scene &scene)
   if (!obstacle) return;
   constexpr int N = SurfaceObstacle::NUM_TALLIES;
   double sum[N];
-  MPI_Allreduce(obstacle->tally, sum, N, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(const_cast<double *>(obstacle->tally), sum, N, MPI_DOUBLE, MPI_SUM, world);
   values[COLLISIONS] = sum[SurfaceObstacle::COLLISIONS];
   values[CROSSINGS] = sum[SurfaceObstacle::CROSSINGS] + scene.strays;
   values[RESCUES] = sum[SurfaceObstacle::RESCUES];

@@ -133,6 +133,7 @@ TEST(ReferenceSurfaces, CarefulAgrees)
   double worst = 0.0;
   for (const Reference &r : REFERENCES) {
     const TriangleMesh mesh = test_mesh(r.name);
+    if (SANITIZED && mesh.points.size() > 100) continue;
     const Totals t = Scene(mesh, Quadrature::CAREFUL, {{1.0, 0.0, 1.0}}).evaluate();
     const double errors[] = {relative(t.area, r.area), relative(t.volume, r.volume),
                              relative(t.bending, r.bending),
@@ -293,6 +294,7 @@ TEST(Forces, OfThickLeafletsAreMinusTheGradient)
       Scene scene(test_mesh("bumpy_icosphere_2"), Quadrature::SIX, {moduli});
       worst = std::max(worst, force_error(scene, {0, 17, 80}));
       for (int valence : {4, 5, 7}) {
+        if (SANITIZED && valence == 5) continue;
         Scene corners(loop_refine(loop_refine(perturbed(bipyramid(valence), 0.05, valence))), Quadrature::SIX,
                       {moduli});
         worst = std::max(worst, force_error(corners, {0, 5, 30}));
@@ -335,6 +337,7 @@ TEST(Forces, AreMinusTheGradientOfEachTermOnRegularFaces)
   ASSERT_EQ(valences_of(mesh), std::set<int>{6});
   for (Quadrature quadrature : ALL_QUADRATURES)
     for (const auto &[term, moduli] : TERMS) {
+      if (SANITIZED && quadrature == Quadrature::CAREFUL) continue;
       Scene scene(mesh, quadrature, {moduli});
       EXPECT_LT(force_error(scene, {0, 17}), 1e-7) << term << ", rule " << name(quadrature);
     }
@@ -403,6 +406,7 @@ TEST(Forces, SumToNothingAndExertNoTorque)
   for (const auto &[term, moduli] : TERMS)
     for (const TriangleMesh &mesh :
          {valence_mesh(3), valence_mesh(8), test_mesh("bumpy_icosphere_2")}) {
+      if (SANITIZED && mesh.points.size() > 100) continue;
       Scene scene(mesh, Quadrature::CAREFUL, {moduli});
       const Totals t = scene.evaluate();
       Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
@@ -477,6 +481,7 @@ TEST(Virial, IsTheDerivativeUnderStrainInEachComponent)
        {valence_mesh(3), valence_mesh(5), valence_mesh(9), test_mesh("bumpy_icosphere_2")})
     for (const auto &[term, moduli] : TERMS) {
       if (term == "gauss") continue;    // 4 pi whatever the strain
+      if (SANITIZED && mesh.points.size() > 100) continue;
       Scene scene(mesh, Quadrature::SIX, {moduli});
       const double error = virial_error(scene);
       EXPECT_LT(error, 1e-6) << term;

@@ -126,7 +126,9 @@ const std::vector<Sample> &samples()
   static const std::vector<Sample> list = [] {
     std::vector<Sample> made;
     unsigned seed = 0;
-    for (const Valences &n : triples()) {
+    const std::vector<Valences> all = triples();
+    for (size_t i = 0; i < all.size(); i += STRIDE) {
+      const Valences &n = all[i];
       const Planar points = random_points(LimitBasis(n).size(), ++seed);
       made.push_back({n, points, by_border(n, points)});
     }
@@ -255,7 +257,7 @@ TEST(PatchRules, ArePartitionsOfUnityWithDerivativesOfTheOrderOfAnEdge)
 TEST(PatchRules, CarefulIntegratesAFlatFaceExactlyForEveryValence)
 {
   double worst = 0.0;
-  for (size_t i = 0; i < samples().size(); i += 4 * STRIDE - 3) {
+  for (size_t i = 0; i < samples().size(); i += SANITIZED ? 3 : 1) {
     const auto &[n, points, exact] = samples()[i];
     const Flat rule = by_rule(shared_rules(Quadrature::CAREFUL).get(n), points);
     const double error =
@@ -285,7 +287,7 @@ TEST(PatchRules, MorePointsAreMoreAccurate)
   for (Quadrature quadrature : ALL_QUADRATURES) {
     double sum = 0.0;
     int count = 0;
-    for (size_t i = 0; i < samples().size(); i += 4 * STRIDE - 3) {
+    for (size_t i = 0; i < samples().size(); i += SANITIZED ? 3 : 1) {
       const auto &[n, points, exact] = samples()[i];
       const double error = by_rule(shared_rules(quadrature).get(n), points).moment - exact.moment;
       sum += error * error;

@@ -2,6 +2,7 @@
 
 A row of the matrix is a set of styles, a column a command with what it does to the energy. To add a
 style or a command is to add a line."""
+# cost: 15
 
 import glob
 import os

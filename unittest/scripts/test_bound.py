@@ -2,9 +2,8 @@
 
     MEMBRANE_LONG=1    drift over 100,000 steps, and 1e7 particle-steps on two ranks
 """
-# cost: 60
+# cost: 35
 # timeout: 14400
-# processors: 2
 
 import math
 
@@ -61,10 +60,10 @@ def apart(a, b):
 # === Order of the energy error, and no more than without particles
 
 steps = [5e-3 / 2**k for k in range(4)]
-bare = [spread(energies(1.0, n=0, dt=dt)) for dt in steps]
+bare = [spread(energies(0.5, n=0, dt=dt)) for dt in steps]
 for n, m, hold in ((10, 0.1, "spring 300"), (10, 1.0, "spring 3000"), (10, 10.0, "spring 5000"),
                    (100, 1.0, "spring 1000"), (10, 1.0, "rigid"), (10, 10.0, "rigid")):
-    errors = [spread(energies(1.0, n=n, m=m, hold=hold, dt=dt)) for dt in steps]
+    errors = [spread(energies(0.5, n=n, m=m, hold=hold, dt=dt)) for dt in steps]
     power = order(steps, errors)
     claim(f"{n} particles of mass {m}, {hold}: energy error goes as dt^2 over a factor 8",
           abs(power - 2) < 0.1, f"order {power:.3f}, errors " + " ".join(f"{e:.2e}" for e in errors))
@@ -263,14 +262,14 @@ for n in (3, 5, 7, 12, 20):
 # === Ranks, newton, restart
 
 paths = {}
-for ranks, newton in ((1, "on"), (2, "on"), (2, "off"), (4, "on")):
+for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
     run(script(n=40, every=1000, newton=newton) + """
 dump            1 all custom 1000 x.dump id x y z
 dump_modify     1 format float %.17g
 run             1000
 """, ranks=ranks)
     paths[ranks, newton] = frames("x.dump")[-1]
-for ranks, newton in ((2, "on"), (2, "off"), (4, "on")):
+for ranks, newton in ((2, "off"), (4, "on")):
     off = apart(paths[1, "on"], paths[ranks, newton])
     claim(f"{ranks} ranks, newton {newton}: follow one to 1e-9 over 1000 steps", off < 1e-9, f"{off:.1e}")
 

@@ -2,7 +2,7 @@
 
     MEMBRANE_LONG=1    forty times the particles
 """
-# cost: 60
+# cost: 25
 # timeout: 14400
 
 import math

@@ -1,7 +1,6 @@
 """Bound particles in the scenes that users have: periodic and triclinic boxes, several membranes, LAMMPS' commands
 between two runs, r-RESPA, minimization, deforming boxes; and every wrong input."""
-# cost: 40
-# processors: 2
+# cost: 30
 
 import math
 
@@ -51,7 +50,7 @@ def sheet(n=20, dt=0.004, hold="spring 3000", every=1, newton="on", leaflet="bot
 for hold in ("spring 3000", "rigid"):
     errors = []
     for dt in (0.004, 0.002):
-        n = round(2.0 / dt)
+        n = round(1.0 / dt)
         rows = thermo(run(sheet(dt=dt, hold=hold) + f"run {n}\n"))[-n - 1:]
         errors.append(spread([row["TotEng"] for row in rows]))
     claim(f"triclinic sheet, {hold}: half the step, a quarter of the energy error", 3.0 < errors[0] / errors[1] < 5.0,
@@ -60,7 +59,7 @@ for hold in ("spring 3000", "rigid"):
           and rows[-1]["c_d[1][4]"] == rows[0]["c_d[1][4]"] > 0, f"{rows[-1]['c_d[1][3]']:.0f} {rows[-1]['c_d[1][4]']:.0f}")
 
 ends = {}
-for ranks, newton in ((1, "on"), (2, "on"), (2, "off"), (4, "on")):
+for ranks, newton in ((1, "on"), (2, "off"), (4, "on")):
     run(sheet(every=1000, newton=newton) + """
 dump            1 all custom 1000 x.dump id xu yu zu ix iy
 dump_modify     1 format float %.17g
@@ -68,7 +67,7 @@ run             1000
 """, ranks=ranks)
     ends[ranks, newton] = frames("x.dump")[-1]
 crossed = sum(row[4] != 0 or row[5] != 0 for row in ends[1, "on"] if row[0] > 100)
-for key in ((2, "on"), (2, "off"), (4, "on")):
+for key in ((2, "off"), (4, "on")):
     off = max(abs(a - b) for p, q in zip(ends[1, "on"], ends[key]) for a, b in zip(p[:4], q[:4]))
     claim(f"{key[0]} ranks, newton {key[1]}: follow one to 1e-9 over 1000 steps, through the periodic box",
           off < 1e-9 and crossed > 0, f"{off:.1e}, {crossed} particles crossed")

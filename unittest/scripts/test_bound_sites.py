@@ -1,7 +1,6 @@
 """Sites of bound particles from a file: faces by their corners, barycentric coordinates. What write_bound writes
 continues a scene elsewhere; every wrong line of a file is told."""
 # cost: 8
-# processors: 2
 
 import math
 

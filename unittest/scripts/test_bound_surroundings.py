@@ -1,7 +1,6 @@
 """Bound particles on a mesh of which most faces are irregular and which moves; beside solvent; on membranes of two temperatures;
 in the trial runs of hd_timestep."""
-# cost: 25
-# processors: 2
+# cost: 15
 
 import math
 

@@ -2,7 +2,7 @@
 
 After the command they go on as in a script that starts there: from a restart file written in its place. A
 command is a line below; what single styles do about it is in test_between_runs.py."""
-# cost: 45
+# cost: 55
 
 import os
 import sys

@@ -1,6 +1,5 @@
 """compute membrane/shape and compute membrane/curvature/atom measure the limit surface."""
 # cost: 20
-# processors: 2
 
 import math
 import os

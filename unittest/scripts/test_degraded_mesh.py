@@ -3,7 +3,7 @@
 What the warning rests on is measured apart from it: the bending energy of the same shape by the rule in use and
 by quadrature 12. It is due when they differ by more than a tenth of the latter and of kc.
 """
-# cost: 20
+# cost: 15
 
 import math
 import os

@@ -1,5 +1,4 @@
 """Bad input gets one LAMMPS error line that names the thing and the cure; what the mesh has, on one rank and on two."""
-# cost: 15
 
 import concurrent.futures
 import os

@@ -1,5 +1,5 @@
 """The examples of dynamics do what they say; those that take averages with a tenth of their steps."""
-# cost: 40
+# cost: 60
 
 import os
 import shutil
@@ -59,7 +59,8 @@ claim("tension: two frames, each with its membrane near the area of theory",
       [row[2:6] for row in rows[::2]])
 
 example("relaxation_srd", ("loop 6", "loop 2"), ("run             2000", "run             1000"), script="in.plane")
-example("relaxation_srd", ("loop 6", "loop 2"), script="in.vesicle")
+example("relaxation_srd", ("loop 6", "loop 2"), ("run             1000", "run             300"),
+        ("run             850", "run             500"), script="in.vesicle")
 shutil.copy(os.path.join(EXAMPLES, "relaxation_srd", "plot.py"), ".")
 code = subprocess.run([sys.executable, "plot.py"]).returncode
 for name in ("plane", "vesicle"):
@@ -78,14 +79,15 @@ claim("poiseuille: the vesicle takes away some of the flow, and is faster than i
       code == 0 and len(profile) == 24 and 0.7 < mean / without < 1.0 and mean < speed < 1.5 * without,
       f"vesicle {speed:.3f}, mean {mean:.3f}, without vesicle {without:.3f}")
 
-output = example("bound", ("run             12000", "run             3000"), script="in.bound")
+output = example("bound", ("run             2000", "run             500"), ("run             12000", "run             2400"),
+                 script="in.bound")
 code, rows = plotted("bound", "decay.txt")
 free, crowded = [[float(row[7].rstrip(",")) for row in rows if row[:2] == ["fitted", kind]] for kind in ("tracers", "proteins")]
 error = [float(row[9].rstrip(",")) for row in rows if row[:2] == ["fitted", "tracers"]]
 claim("bound: tracers diffuse as they do when free", code == 0 and abs(free[1] - 0.1) < 0.005 + 3 * error[1], f"{free} +- {error}")
 claim("    and proteins that crowd one another more slowly", all(0.3 < c / 0.1 < 0.6 for c in crowded), crowded)
 
-output = example("bound_sorting", ("run             8000", "run             1200"), ("run             2000", "run             1000"),
+output = example("bound_sorting", ("run             8000", "run             600"), ("run             2000", "run             600"),
                  script="in.sorting")
 code, rows = plotted("bound_sorting", "sorting.txt")
 crests, theory = float(rows[-1][4]), float(rows[-1][8])

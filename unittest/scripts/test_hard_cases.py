@@ -1,7 +1,6 @@
 """Meshes and scenes that are hard on the numerics: forces are the gradient of the energy, the stability
 limit found is one, half the timestep has a quarter of the energy error. Prints a table of what it
 measures, for Howto_membrane_accuracy, with MEMBRANE_LONG=1 as it is there."""
-# cost: 30
 
 import math
 import os

@@ -1,7 +1,6 @@
 """fix hd/langevin and hd/brownian: relaxation rates of one mode, temperature, energy balance, restarts,
 ranks."""
-# cost: 30
-# processors: 2
+# cost: 15
 
 import math
 

@@ -1,6 +1,5 @@
 """create_membrane reads the mesh files that people have, says what it did to them, and write_membrane's own."""
 
-# cost: 15
 
 import math
 import os

@@ -1,5 +1,4 @@
 """min_style membrane: a few hundred evaluations on any mesh. How LAMMPS' own styles fare: bench/minimizers.py."""
-# cost: 15
 
 import os
 import re

@@ -1,5 +1,5 @@
 """min_style membrane where meshes slide, are poor, or a wall pulls. Figures: bench/awkward_minimizations.py."""
-# cost: 25
+# cost: 15
 
 import math
 import re

@@ -1,6 +1,6 @@
 """Modes in place of control points: equilibrium at kc = 20 kT. Each mode has its share of energy, whatever the integrator,
 and small undulations have the powers of theory."""
-# cost: 30
+# cost: 25
 
 import math
 
@@ -94,7 +94,7 @@ def study(name, scene, fix, dt, steps, every, terms="", pairs=1, kinetic=True):
 # 42 vertices of mass 3.9: l = 2 to 4 have frequencies of 6 to 23. So coarse a mesh has other powers than a sphere, but kT/2
 # is that of any energy
 
-study("hd/langevin, vesicle", VESICLE, "hd/langevin 1.0 1.0 0.15 4711 modes sphere min 2 max 4", 0.01, 60000, 10)
+study("hd/langevin, vesicle", VESICLE, "hd/langevin 1.0 1.0 0.15 4711 modes sphere min 2 max 4", 0.01, 40000, 10)
 study("hd/langevin relax eta, vesicle with fixed volume and tension", VESICLE,
       "hd/langevin 1.0 1.0 NULL 4711 modes sphere min 0 max 4 relax eta 5.0", 0.01, 40000, 10,
       "tension 5.0 volume 2000 init")

@@ -1,7 +1,6 @@
 """Modes in place of control points: motion. What they keep of the motion of all control points, energy, relaxation
 rates, ranks, restarts, what is refused. doc/src/Derivation_modes.rst derives the rates."""
-# cost: 30
-# processors: 2
+# cost: 15
 
 import math
 

@@ -2,8 +2,7 @@
 
     MEMBRANE_LONG=1    drift over 1,000,000 steps in place of 60,000
 """
-# cost: 30
-# processors: 2
+# cost: 20
 
 import math
 

@@ -1,6 +1,4 @@
 """Energies and forces do not depend on how many ranks share the membranes, nor on how."""
-# cost: 20
-# processors: 2
 
 from lammps_claims import MPIEXEC, claim, finish, run, thermo
 from membrane_scenes import SCENES, coefficients, largest, read_dump

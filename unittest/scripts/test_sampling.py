@@ -1,6 +1,5 @@
 """mass sampling of fix hd/langevin and hd/brownian: ranks, restarts, the reference that it renews, several membranes; the
 measure among fixes, along a ramp and in what is conserved; wrong input."""
-# processors: 2
 
 import math
 

@@ -1,6 +1,5 @@
 """fix srd/mesh without membranes: what is kept, ranks, restarts, walls, forces, boxes that change."""
-# cost: 60
-# processors: 2
+# cost: 20
 
 from lammps_claims import MPIEXEC, claim, finish, lammps, run, thermo
 from membrane_scenes import read_dump

@@ -23,7 +23,7 @@ block has 40, so errors from blocks are right; trajectories depend on the machin
 
     MEMBRANE_LONG=1    ten times as long, and collision slip, too, for thirty times as long
 """
-# cost: 45
+# cost: 65
 # timeout: 7200
 
 import math

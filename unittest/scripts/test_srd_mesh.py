@@ -1,6 +1,5 @@
 """fix srd/mesh with membranes: what a collision keeps, that nothing passes, ranks, restarts, scenes."""
 # cost: 50
-# processors: 2
 
 import math
 import os

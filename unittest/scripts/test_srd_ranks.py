@@ -1,6 +1,5 @@
 """fix srd/mesh on several ranks: the same on any number of them, wherever surface and solvent are and go."""
-# cost: 35
-# processors: 4
+# cost: 15
 
 from lammps_claims import claim, finish, run, thermo
 from membrane_scenes import read_dump

@@ -5,7 +5,7 @@
 An ideal gas and particles on a flat sheet have distributions in closed form; an undulating sheet is compared with the sum
 over the waves of its mesh, each as stiff as LAMMPS finds it (doc/src/Derivation_tension.rst).
 """
-# cost: 60
+# cost: 40
 # timeout: 14400
 
 import math
@@ -238,14 +238,14 @@ stiffness = waves(1)
 for tension in (0.0, KT) if LONG else (KT,):
     output = breathe(1, tension, 100000 if LONG else 10000)
     sheet_claims(f"168 points, frame tension {tension / KT:.0f} kT/h^2", 1, tension, stiffness, output)
-breathe(1, 0.0, 6000, fix=SAMPLING + " measure no")
+breathe(1, 0.0, 4000, fix=SAMPLING + " measure no")
 _, membrane, _ = zip(*rows_of("area.txt"))
 mean, error, _, _ = moments(membrane)
 area, gas = scene(1)["area"], 1.5 * 168 * KT / scene(1)["area"]
 claim("without the measure the membrane is stretched by the tension of a gas of its points, 3/2 kT N/A, and not at rest",
       abs(mean / area - 1 - gas / KA) < 3 * error / area + 0.1 * gas / KA and mean > area + 10 * error,
       f"{mean:.3f} +- {error:.3f}, at rest {area:.3f}, stretched {area * (1 + gas / KA):.3f}")
-output = breathe(1, 0.0, 100000 if LONG else 3000, words="x y")
+output = breathe(1, 0.0, 100000 if LONG else 1500, words="x y")
 ratios = [row["Lx"] / row["Ly"] * math.sqrt(0.75) * 14 / 12 for row in thermo(output)]
 claim("x and y free of each other: a sheet without shear modulus may change its frame's shape, and does",
       max(ratios) - min(ratios) > 0.01, f"{min(ratios):.3f} to {max(ratios):.3f}")

@@ -2,7 +2,7 @@
 
     MEMBRANE_LONG=1    100,000 moves of a cold sheet
 """
-# cost: 40
+# cost: 15
 # timeout: 7200
 
 from lammps_claims import LONG, claim, error_of, finish, lammps, run, thermo
@@ -44,7 +44,7 @@ def differences(a, b, skip=()):
 # === Ranks, newton, tilted boxes, restarts
 
 one = thermo(run(scene() + "run 400\n"))
-for ranks, newton in ((2, "on"), (4, "on"), (1, "off"), (2, "off")):
+for ranks, newton in ((4, "on"), (1, "off"), (2, "off")):
     other = thermo(run(scene(newton=newton) + "run 400\n", ranks=ranks))
     error = max(differences(a, b) for a, b in zip(other, one))
     claim(f"{ranks} ranks, newton {newton}: the same decisions and numbers", error < 1e-6 and other[-1]["f_t[1]"] == 80,

@@ -4,7 +4,7 @@ would also tell how they are spread over the surface, which is slow and no prope
 
     MEMBRANE_LONG=1    twenty times the steps
 """
-# cost: 30
+# cost: 40
 # timeout: 7200
 
 import math

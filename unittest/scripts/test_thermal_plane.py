@@ -96,7 +96,7 @@ claim("on two ranks likewise", abs(costs["conformal", 2] - costs["conformal", 1]
 
 # === Spectra
 
-ratios, rows = sheet(2, 40000 if LONG else 5600)
+ratios, rows = sheet(2, 40000 if LONG else 4200)
 claims("672 points", ratios, 0.01)
 
 # what holds the frame: the virial, and the kinetic energy of equilibrium. That of the energy is zero, and the measure takes

@@ -1,6 +1,5 @@
 """hd_timestep finds the stability limit, leaves no trace, and the integrators stop beyond the limit."""
-# cost: 25
-# processors: 2
+# cost: 15
 
 import math
 import re
