@@ -18,7 +18,6 @@
 #include "membrane_molecule_build.h"
 
 #include "membrane_lipid_numbers.h"
-#include "membrane_molecule_composition.h"
 #include "membrane_molecule_rings.h"
 
 #include <algorithm>

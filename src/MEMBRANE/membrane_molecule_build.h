@@ -14,21 +14,13 @@
 #ifndef LMP_MEMBRANE_MOLECULE_BUILD_H
 #define LMP_MEMBRANE_MOLECULE_BUILD_H
 
-#include "membrane_molecule_crowd.h"
+#include "membrane_molecule_composition.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace Membrane_NS {
-
-struct FaceComposition;
-
-/// A connected membrane, to be built of lipids.
-struct MembranePart {
-  std::vector<int> faces;    ///< of the limit surface
-  long long membrane;        ///< what it is called
-};
 
 /// A molecule that is put where it is told, under which there are no lipids.
 struct PlacedProtein {

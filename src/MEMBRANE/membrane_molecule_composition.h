@@ -18,7 +18,11 @@
 
 namespace Membrane_NS {
 
-struct MembranePart;
+/// A connected membrane, to be built of lipids.
+struct MembranePart {
+  std::vector<int> faces;    ///< of the limit surface
+  long long membrane;        ///< what it is called
+};
 
 /// What lipids there are to be on each face, in place of those of the patch.
 struct FaceComposition {

@@ -23,7 +23,6 @@
 #include "error.h"
 #include "fix_hd_bound.h"
 #include "membrane_closest_point.h"
-#include "membrane_molecule_composition.h"
 #include "membrane_molecule_output.h"
 #include "membrane_molecule_reader.h"
 #include "mesh_distributed.h"

@@ -22,7 +22,6 @@
 #include "error.h"
 #include "force.h"
 #include "helfrich_lipids.h"
-#include "membrane_molecule_composition.h"
 #include "mesh_distributed.h"
 #include "mesh_lipid_places.h"
 #include "modify.h"
