@@ -20,6 +20,7 @@
 #include "membrane_random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -153,26 +154,34 @@ VectorXd ModalMass::project(const VertexField &f) const
 
 void ModalMass::expand(const VectorXd &a, VertexField &v) const
 {
+  expand<1>({&a}, {&v});
+}
+
+// reading the modes is what takes time: N fields at once
+
+template <int N>
+void ModalMass::expand(const std::array<const VectorXd *, N> &a, const std::array<VertexField *, N> &v) const
+{
+  std::vector<Lane> vectors;
   for (const Membrane &membrane : membranes_) {
     const int blocks = membrane.modes->functions / LANES;
-    const VectorXd numbers = membrane.modes->couple * a.segment(membrane.first, membrane.modes->modes.size());
-    std::vector<Lane> vectors(3 * blocks);
-    std::memcpy(vectors.data(), numbers.data(), sizeof(Lane) * vectors.size());
-    const Lane *x = vectors.data(), *y = x + blocks, *z = y + blocks;
+    vectors.resize(3 * static_cast<size_t>(N * blocks));
+    for (int n = 0; n < N; ++n) {
+      const VectorXd numbers = membrane.modes->couple * a[n]->segment(membrane.first, membrane.modes->modes.size());
+      std::memcpy(&vectors[3 * static_cast<size_t>(n * blocks)], numbers.data(), 3 * sizeof(Lane) * blocks);
+    }
     for (size_t i = 0; i < membrane.local.size(); ++i) {
       const Lane *psi = &membrane.psi[i * blocks];
-      Lane sx{}, sy{}, sz{};
-      for (int j = 0; j < blocks; ++j) {
-        sx += psi[j] * x[j];
-        sy += psi[j] * y[j];
-        sz += psi[j] * z[j];
-      }
-      double *to = v[membrane.local[i]].c;
-      to[0] = to[1] = to[2] = to[3] = 0.0;
-      for (int l = 0; l < LANES; ++l) {
-        to[0] += sx[l];
-        to[1] += sy[l];
-        to[2] += sz[l];
+      Lane sum[3 * N] = {};
+      for (int j = 0; j < blocks; ++j)
+        for (int k = 0; k < 3 * N; ++k) sum[k] += psi[j] * vectors[k * blocks + j];
+      for (int n = 0; n < N; ++n) {
+        double *to = (*v[n])[membrane.local[i]].c;
+        for (int k = 0; k < 3; ++k) {
+          to[k] = 0.0;
+          for (int l = 0; l < LANES; ++l) to[k] += sum[3 * n + k][l];
+        }
+        to[3] = 0.0;
       }
     }
   }
@@ -203,14 +212,19 @@ void ModalMass::multiply(const VertexField &v, VertexField &p)
   full_->multiply(work_, p);
 }
 
-void ModalMass::solve(const VertexField &p, VertexField &v)
+VectorXd ModalMass::response(const VertexField &p) const
 {
   VectorXd a = project(p);
   if (is_drag_of_modes())
     for (int k = 0; k < count_; ++k) a[k] /= friction_[k];
   else
     factor_.solveInPlace(a);
-  expand(a, v);
+  return a;
+}
+
+void ModalMass::solve(const VertexField &p, VertexField &v)
+{
+  expand(response(p), v);
 }
 
 VectorXd ModalMass::white(uint64_t seed, uint64_t step) const
@@ -224,14 +238,25 @@ VectorXd ModalMass::white(uint64_t seed, uint64_t step) const
   return z;
 }
 
-void ModalMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
+VectorXd ModalMass::unit_noise(uint64_t seed, uint64_t step) const
 {
-  VectorXd z = std::sqrt(kT) * white(seed, step);
+  VectorXd z = white(seed, step);
   if (is_drag_of_modes())
     for (int k = 0; k < count_; ++k) z[k] /= std::sqrt(friction_[k]);
   else
     factor_.matrixU().solveInPlace(z);
-  expand(z, v);
+  return z;
+}
+
+void ModalMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
+{
+  expand(std::sqrt(kT) * unit_noise(seed, step), v);
+}
+
+void ModalMass::solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step, VertexField &z)
+{
+  const VectorXd a = response(p), b = unit_noise(seed, step);
+  expand<2>({&a, &b}, {&v, &z});
 }
 
 /* ----------------------------------------------------------------------

@@ -57,6 +57,7 @@ class ModalMass : public MassOperator {
   void multiply(const VertexField &v, VertexField &p) override;
   void solve(const VertexField &p, VertexField &v) override;
   void sample(double kT, uint64_t seed, uint64_t step, VertexField &v) override;
+  void solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step, VertexField &z) override;
   int lost_freedoms() const override { return 3 * space_->num_vertices() - count_; }
   bool has_own_friction() const override { return !friction_.empty(); }
   void relax_own(double time, double kT, uint64_t seed, uint64_t step, VertexField &v) override;
@@ -95,6 +96,10 @@ class ModalMass : public MassOperator {
   VertexField work_, momentum_;
 
   bool is_drag_of_modes() const { return drag_ && !friction_.empty(); }
+  Eigen::VectorXd response(const VertexField &p) const;
+  Eigen::VectorXd unit_noise(uint64_t seed, uint64_t step) const;
+  template <int N>
+  void expand(const std::array<const Eigen::VectorXd *, N> &a, const std::array<VertexField *, N> &v) const;
   void find_membranes();
   void find_gram();
   void find_decay();

@@ -55,8 +55,8 @@ void cross_ratios(const FaceGroup &group, const double (*x)[3], const std::vecto
                   const std::vector<int> &across, std::vector<double> &logs);
 
 /** On which side of a closed component its points gather. Conformal maps of a sphere onto itself take them to any
-    pole at no cost in cross ratios, and nothing but a small part of regularize_faces() resists. So a component of F
-    faces with the areas A_f and the centres c_f, together A, has the energy
+    pole at no cost in cross ratios. So a component of F faces with the areas A_f and the centres c_f, together A, has
+    the energy
 
       10 K 4 pi |d|^2/A,   d = sum over faces of (1/F - A_f/A) c_f,
 
