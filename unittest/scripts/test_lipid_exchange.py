@@ -1,5 +1,5 @@
 """fix hd/lipids: whole lipids on faces, their exchange, and what commands between two runs do to them."""
-# cost: 15
+# cost: 18
 
 import re
 import struct
@@ -147,7 +147,7 @@ claim("  and are near the composition", abs(mean - 0.5) < 0.05, mean)
 
 PICTURE = "dump d all membrane/image 5 lipids.*.ppm type type size 100 100 box no 0 axes no 0 0\ndump_modify d surface {} range 0 1\nrun 5\n"
 output = run(start() + PICTURE.format("outer A"))
-claim("dump membrane/image colors by a kind", "colors membranes by the part of A from 0 to 1" in output or
+claim("dump membrane/image colors by a kind", "colors membranes by the part of A from 0 to 1" in output and
       len(set(open("lipids.5.ppm", "rb").read())) > 20)
 
 # === Bad input

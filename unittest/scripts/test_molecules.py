@@ -346,16 +346,16 @@ def kinds_of(path):
             entry = lipids.setdefault((line[21], line[22:26]), [line[21], line[17:21], []])
             entry[2].append(float(line[46:54]))
     chains = sorted({entry[0] for entry in lipids.values()})
-    return [(chains.index(chain), kind, sum(z) / len(z)) for chain, kind, z in lipids.values()]
+    middle = sum(sum(z) / len(z) for _, _, z in lipids.values()) / len(lipids)    # the box of the file begins at 0
+    return [(chains.index(chain), kind, sum(z) / len(z) - middle) for chain, kind, z in lipids.values()]
 
 
 LIPIDS = """
 pair_style      helfrich
-pair_coeff      1 1 10.0 0.0 lipids NULL outer LIPA 1 LIPB 3 inner LIPA 3 LIPB 1 library LIPA 60 0.0 library LIPB 66 0.0
-pair_coeff      2 2 10.0 0.0 lipids NULL outer LIPB 1 inner LIPA 1
+pair_coeff      1 1 10.0 0.0 lipids NULL library LIPA 60 0.0 library LIPB 66 0.0 outer LIPA 1 LIPB 3 inner LIPA 3 LIPB 1
+pair_coeff      2 2 10.0 0.0 lipids NULL library LIPA 60 0.0 library LIPB 66 0.0 outer LIPB 1 inner LIPA 1
 region          top block INF INF INF INF 0 INF
 set             region top type 2
-mass            * 1000
 """
 for how, more in (("pair_coeff", ""), ("fix hd/lipids", "fix x all hd/lipids 1 300.0 4711 global 1\nrun 0\n")):
     remove("kinds")
