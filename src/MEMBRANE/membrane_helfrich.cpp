@@ -94,7 +94,7 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
    curvatures n = 2H +- 2 K D of parallel surfaces and the curvature m each wants:
      kc/4 sum [n^2/A - 2 m n + m^2 A],   n^2/A = (2H)^2 + w (n^2/A - (2H)^2).
    w is 1 but where a radius of curvature nears D, as next to control points of irregular valence, and 0 before A is:
-   there it falls with x = D^2 (k1^2 + k2^2) = D^2 ((2H)^2 - 2 K) as 1 - t^2 (3 - 2 t)
+   there it falls with x = D^2 (k1^2 + k2^2) = D^2 ((2H)^2 - 2 K) as 1 - t^3 (10 - 15 t + 6 t^2)
 ------------------------------------------------------------------------- */
 
 class Leaflets {
@@ -129,9 +129,9 @@ class Leaflets {
     Lane t = (e.bend - LEAFLETS_EXACT) * (1.0 / (LEAFLETS_THIN - LEAFLETS_EXACT));
     t = t < 0.0 ? Lane{} : t;
     t = t > 1.0 ? Lane{} + 1.0 : t;
-    const Lane w = 1.0 - t * t * (3.0 - 2.0 * t);
+    const Lane w = 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
     const Lane more = n_up * above + n_down * below - 2.0 * square;
-    const Lane slope = (-6.0 / (LEAFLETS_THIN - LEAFLETS_EXACT)) * t * (1.0 - t) * more * D;    // by x, times D
+    const Lane slope = (-30.0 / (LEAFLETS_THIN - LEAFLETS_EXACT)) * t * t * (1.0 - t) * (1.0 - t) * more * D;    // by x, times D
 
     e.value = 2.0 * square + w * more - 2.0 * (outer * n_up - inner * n_down) + outer * outer * grown + inner * inner * shrunk;
     e.by_curvature = 4.0 * (1.0 - w) * curvature + w * (above * (2.0 - above * D) + below * (2.0 + below * D)) +

@@ -124,8 +124,11 @@ void Membrane_NS::follow_faces(LipidCrowd &crowd, const std::vector<MembranePart
         for (int i = 0; i < sizes[n]; ++i) {
           for (size_t s = 0; s < nspecies; ++s) behind[s] += numbers[n * nspecies + s] / sizes[n];
           int next = -1;
-          for (size_t s = 0; s < nspecies; ++s)
-            if (left[s] > 0 && (next < 0 || behind[s] > behind[next])) next = static_cast<int>(s);
+          for (const bool of_this_face : {true, false})    // others only where those are used up
+            for (size_t s = 0; s < nspecies && (of_this_face || next < 0); ++s) {
+              const bool here = numbers[n * nspecies + s] > 0.0;
+              if (here == of_this_face && left[s] > 0 && (next < 0 || behind[s] > behind[next])) next = static_cast<int>(s);
+            }
           --left[next];
           behind[next] -= 1.0;
           ++due[next];
