@@ -66,7 +66,7 @@ int main()
     double best[3] = {1e300, 1e300, 1e300};
     for (int run = 0; run < RUNS; ++run)
       for (int kind = 0; kind < 3; ++kind) {
-        energies.leaflet_room.resize(kind == 2 ? model.kc.size() : 0);
+        energies.leaflet_bend.resize(kind == 2 ? model.kc.size() : 0);
         const double start = processor_time();
         for (const FaceGroup &group : groups) face_forces(group, x, model, terms[kind], f, energies);
         best[kind] = std::min(best[kind], (processor_time() - start) / faces.size());

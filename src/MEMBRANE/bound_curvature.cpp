@@ -23,6 +23,7 @@
 #include "force.h"
 #include "helfrich_model.h"
 #include "mesh_distributed.h"
+#include "modify.h"
 #include "pair.h"
 
 #include <algorithm>
@@ -114,6 +115,9 @@ void BoundCurvature::init(const DistributedMesh &mesh, int membranebit)
                  first, t);
   }
   if (!first) return;
+  if (comm->me == 0 && (model->has_term("leaflets", first) || !modify->get_fix_by_style("^hd/lipids$").empty()))
+    error->warning(FLERR, "Fix hd/bind footprint stands in place of a bilayer with the c0 of pair_coeff: leaflets, and the single "
+                          "lipids of fix hd/lipids underneath, make no difference to it");
 
   // the area of the smallest membrane, by its triangles
 

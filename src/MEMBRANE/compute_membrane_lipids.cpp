@@ -19,7 +19,6 @@
 
 #include "atom.h"
 #include "error.h"
-#include "fix.h"
 #include "fmt/format.h"
 #include "force.h"
 #include "helfrich_lipids.h"
@@ -95,11 +94,8 @@ void ComputeMembraneLipids::init()
 const LipidPlaces &ComputeMembraneLipids::places()
 {
   mesh.follow();
-  const LipidPlaces *found = nullptr;
-  int dim;
-  for (Fix *fix : modify->get_fix_by_style("^hd/lipids$"))
-    found = static_cast<LipidPlaces *>(fix->extract("places", dim));
-  if (!found || !found->lipids)
+  const LipidPlaces *found = LipidPlaces::on(*mesh, modify);
+  if (!found)
     error->all(FLERR, "Compute {} membrane/lipids: no single lipids are on faces; use fix hd/lipids", id);
   resize(found->lipids->num_kinds());
   return *found;
@@ -216,7 +212,6 @@ int ComputeMembraneLipids::list_faces(bool write)
   const auto &topology = mesh->topology();
   const LipidPlaces &found = places();
   int count = 0;
-  std::vector<int> n;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     for (int a = 0; a < atom->num_angle[i]; ++a) {
@@ -238,10 +233,7 @@ int ComputeMembraneLipids::list_faces(bool write)
             value = 0.5 * (mesh->lipids().outer[face] - mesh->lipids().inner[face]);
             continue;
           }
-          n.assign(found.kinds.size(), 0);
-          found.lipids->count(columns[c].leaflet, face, n.data());
-          for (size_t k = 0; k < n.size(); ++k)
-            if (found.kinds[k].name == columns[c].name) value = n[k];
+          value = found.count(columns[c].leaflet, face, found.kind(columns[c].name));
         }
       }
       ++count;
@@ -255,8 +247,7 @@ void ComputeMembraneLipids::compute_local()
   invoked_local = update->ntimestep;
   const LipidPlaces &found = places();
   for (const Column &column : columns)
-    if (column.leaflet != CURVATURE &&
-        std::none_of(found.kinds.begin(), found.kinds.end(), [&](auto &kind) { return kind.name == column.name; }))
+    if (column.leaflet != CURVATURE && found.kind(column.name) < 0)
       error->all(FLERR, "Compute {} membrane/lipids: no membrane has the lipid {}", id, column.name);
   size_local_rows = list_faces(false);
   if (size_local_rows > most_faces || !array_local) {

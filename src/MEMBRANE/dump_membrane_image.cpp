@@ -23,6 +23,8 @@
 #include "image.h"
 #include "memory.h"
 #include "mesh_box.h"
+#include "mesh_lipid_places.h"
+#include "modify.h"
 #include "output.h"
 #include "platform.h"
 #include "region.h"
@@ -81,7 +83,7 @@ DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, int narg, char **arg) :
 }
 
 DumpMembraneImage::DumpMembraneImage(LAMMPS *lmp, std::vector<char *> args) :
-    DumpImage(lmp, static_cast<int>(args.size()), args.data()), coloring(Coloring::MEAN_CURVATURE),
+    DumpImage(lmp, static_cast<int>(args.size()), args.data()), coloring(Coloring::MEAN_CURVATURE), leaflet(0),
     draw_points(false), in_one_piece(true), own_map(false), auto_range(true), lo(0.0), hi(1.0),
     range_reported(false), subdivide(0), mesh(lmp, "Dump membrane/image")
 {
@@ -137,10 +139,15 @@ int DumpMembraneImage::modify_param(int narg, char **arg)
       coloring = Coloring::TYPE;
     else if (what == "molecule")
       coloring = Coloring::MOLECULE;
-    else
-      error->all(FLERR, "dump_modify surface {} is not one of H, K, type, molecule", what);
+    else if (what == "outer" || what == "inner") {
+      need(2);
+      coloring = Coloring::LIPID;
+      leaflet = what == "inner";
+      lipid = arg[2];
+    } else
+      error->all(FLERR, "dump_modify surface {} is not one of H, K, type, molecule, outer, inner", what);
     range_reported = false;
-    return 2;
+    return coloring == Coloring::LIPID ? 3 : 2;
   }
   if (key == "range") {
     need(1);
@@ -292,9 +299,23 @@ void DumpMembraneImage::set_camera()
 
 /* ---------------------------------------------------------------------- */
 
-double DumpMembraneImage::value(const LimitPoint &point) const
+double DumpMembraneImage::value(int face, const LimitPoint &point) const
 {
+  if (coloring == Coloring::LIPID) return fractions[face];
   return coloring == Coloring::GAUSSIAN_CURVATURE ? point.gaussian_curvature : point.mean_curvature;
+}
+
+void DumpMembraneImage::find_lipids()
+{
+  if (coloring != Coloring::LIPID) return;
+  const LipidPlaces *places = LipidPlaces::on(*mesh, modify);
+  if (!places)
+    error->all(FLERR, "dump_modify surface {}: no single lipids are on faces; use fix hd/lipids, and run", leaflet ? "inner" : "outer");
+  const int kind = places->kind(lipid);
+  if (kind < 0) error->all(FLERR, "dump_modify surface {}: no membrane has the lipid {}", leaflet ? "inner" : "outer", lipid);
+  fractions.resize(places->lipids->num_faces());
+  for (int f = 0; f < places->lipids->num_faces(); ++f)
+    fractions[f] = places->count(leaflet, f, kind) / MAX(1.0, places->lipids->size(leaflet, f));
 }
 
 /* ----------------------------------------------------------------------
@@ -303,15 +324,16 @@ double DumpMembraneImage::value(const LimitPoint &point) const
 
 void DumpMembraneImage::choose_range(MeshScene &scene)
 {
-  const bool curvature = coloring == Coloring::MEAN_CURVATURE ||
-      coloring == Coloring::GAUSSIAN_CURVATURE;
-  if (!curvature) return;
+  if (!has_values()) return;
 
-  if (auto_range) {
+  if (auto_range && coloring == Coloring::LIPID) {
+    lo = 0.0;
+    hi = 1.0;
+  } else if (auto_range) {
     double mean, deviation;
     if (!scene.statistics(
             [this](const LimitPoint &p) {
-              return value(p);
+              return value(-1, p);
             },
             mean, deviation))
       return;
@@ -324,8 +346,11 @@ void DumpMembraneImage::choose_range(MeshScene &scene)
   if (own_map && image->map_dynamic(SURFACE_MAP) && image->map_minmax(SURFACE_MAP, lo, hi))
     error->all(FLERR, "dump_modify smap has values outside the range {:.6g} to {:.6g}", lo, hi);
   if (me == 0 && !range_reported && !(own_map && !image->map_dynamic(SURFACE_MAP)))
-    utils::logmesg(lmp, "Dump {} colors membranes by {} curvature from {:.6g} to {:.6g}\n", id,
-                   coloring == Coloring::MEAN_CURVATURE ? "mean" : "Gaussian", lo, hi);
+    utils::logmesg(lmp, "Dump {} colors membranes by {} from {:.6g} to {:.6g}\n", id,
+                   coloring == Coloring::MEAN_CURVATURE           ? "mean curvature"
+                       : coloring == Coloring::GAUSSIAN_CURVATURE ? "Gaussian curvature"
+                                                                  : "the part of " + lipid,
+                   lo, hi);
   range_reported = true;
 }
 
@@ -341,8 +366,8 @@ Vector3d DumpMembraneImage::color(const MeshScene &scene, int f, const LimitPoin
     case Coloring::TYPE:
       return Vector3d(colortype[scene.type(face[tessellation->nearest_corner(p)])]);
     default:
-      if (own_map) return Vector3d(image->map_value2color(SURFACE_MAP, value(point)));
-      return Membrane_NS::diverging_color((value(point) - lo) / (hi - lo));
+      if (own_map) return Vector3d(image->map_value2color(SURFACE_MAP, value(f, point)));
+      return Membrane_NS::diverging_color((value(f, point) - lo) / (hi - lo));
   }
 }
 
@@ -351,6 +376,7 @@ Vector3d DumpMembraneImage::color(const MeshScene &scene, int f, const LimitPoin
 void DumpMembraneImage::draw_surface()
 {
   MeshScene scene(lmp, *mesh, groupbit, in_one_piece);
+  find_lipids();
   choose_range(scene);
 
   int n = subdivide;

@@ -28,6 +28,7 @@ DumpStyle(membrane/image,DumpMembraneImage);
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -47,7 +48,10 @@ class DumpMembraneImage : public DumpImage {
   int count() override;
 
  private:
-  enum class Coloring { MEAN_CURVATURE, GAUSSIAN_CURVATURE, TYPE, MOLECULE } coloring;
+  enum class Coloring { MEAN_CURVATURE, GAUSSIAN_CURVATURE, TYPE, MOLECULE, LIPID } coloring;
+  int leaflet;          // of the lipid, 0 outer, 1 inner
+  std::string lipid;
+  std::vector<double> fractions;    // of it, by face
   bool draw_points;     // control points are drawn like other atoms
   bool in_one_piece;    // closed membranes are, beyond the box if need be
   bool own_map;         // the user's color map instead of ours
@@ -68,7 +72,9 @@ class DumpMembraneImage : public DumpImage {
 
   void choose_range(MeshScene &);
   void draw_surface();
-  double value(const Membrane_NS::LimitPoint &) const;
+  bool has_values() const { return coloring != Coloring::TYPE && coloring != Coloring::MOLECULE; }
+  void find_lipids();
+  double value(int face, const Membrane_NS::LimitPoint &) const;
   Eigen::Vector3d color(const MeshScene &, int face, const Membrane_NS::LimitPoint &,
                         int point) const;
   void draw_triangle(const std::array<Membrane_NS::Corner, 3> &,

@@ -161,6 +161,8 @@ void FixHDLipids::start(FaceLipids lipids)
   for (int f = 0; f < nfaces; ++f) corners[f] = corners_of(f, model->origins().now());
   kept_kinds.clear();
   places.lipids = &exchange->lipids();
+  places.mesh = &*mesh;
+  places.generation = mesh->generation();
   places.kinds.clear();
   for (int k = 0; k < nkinds; ++k) {
     kept_kinds.push_back(library[k].name);

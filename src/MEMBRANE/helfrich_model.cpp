@@ -346,7 +346,7 @@ void HelfrichModel::compute(const Wanted &wanted)
   const int nslots = scene.nslots(), nall = atom->nlocal + atom->nghost;
   for (auto *sum : {&scene.energies.bending, &scene.energies.gauss, &scene.energies.area})
     sum->resize(wanted.energy ? nslots : 0);
-  scene.energies.leaflet_room.resize(scene.model.has_leaflets() ? nslots : 0);
+  scene.energies.leaflet_bend.resize(scene.model.has_leaflets() ? nslots : 0);
   scene.energies.virial.resize(wanted.virial ? 6 * (size_t) nslots : 0);
 
   const Membrane_NS::FaceTerms kernel = {needs.gauss, needs.volume, needs.curvature, scene.model.has_leaflets()};

@@ -41,6 +41,13 @@ class HelfrichModel : protected Pointers {
   /// The words of pair_coeff after the types: kc c0 [keyword values ...].
   void set_coefficients(const std::vector<int> &types, int narg, char **arg);
   bool has_coefficients(int type) const { return bending->acts_on(type); }
+  /// Whether a type has the term of this keyword.
+  bool has_term(const std::string &keyword, int type) const
+  {
+    for (const auto &term : terms)
+      if (term->keyword == keyword && term->acts_on(type)) return true;
+    return false;
+  }
   /// kc by type, from 1.
   std::vector<double> bending_moduli() const { return bending->moduli(); }
   /// Of the bilayer, with what its lipids add.

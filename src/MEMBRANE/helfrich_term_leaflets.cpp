@@ -24,9 +24,6 @@ using namespace LAMMPS_NS;
 using Membrane_NS::FaceGroup;
 using Membrane_NS::FaceModel;
 
-// of FaceEnergies::leaflet_room: a radius of curvature within 5 % of the leaflet's distance
-static constexpr double LEAST_ROOM = 0.05;
-
 namespace {
 
 struct Coefficients {
@@ -52,16 +49,19 @@ class LeafletsTerm : public TermWith<Coefficients> {
     for (double &curvature : model.inner) curvature = -curvature;
   }
 
+  // single points may be curved more, as those next to control points of irregular valence
+
   void add_forces(HelfrichScene &scene, const double (*x)[3], double (*)[3]) override
   {
     for (const FaceGroup &group : scene.groups)
       for (int s = 0; s < group.nfaces; ++s) {
-        if (scene.energies.leaflet_room[group.first_slot + s] > LEAST_ROOM) continue;
+        const int slot = group.first_slot + s;
+        if (scene.energies.leaflet_bend[slot] <= Membrane_NS::LEAFLETS_EXACT) continue;
         const double *corner = x[group.point(s, 0)];
         error->one(FLERR,
                    "pair_coeff helfrich leaflets {:.6g}: {} at {:.6g} {:.6g} {:.6g} is curved with a radius near "
                    "this distance or below: use a smaller one, or a smoother or finer mesh",
-                   scene.model.leaflet[group.first_slot + s], scene.mesh->face_name(group.face[s]), corner[0],
+                   scene.model.leaflet[slot], scene.mesh->face_name(group.face[s]), corner[0],
                    corner[1], corner[2]);
       }
   }

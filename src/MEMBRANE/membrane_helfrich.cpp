@@ -90,8 +90,11 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
 }
 
 /* ----------------------------------------------------------------------
-   energy of the leaflets of a block, kc/4 [(2H' - outer)^2 A' + (2H'' + inner)^2 A''] per area of the mid-plane,
-   with the curvatures (2H +- 2 K D)/A and areas A = 1 +- 2H D + K D^2 of parallel surfaces
+   energy of the leaflets of a block, per area of the mid-plane, with the areas A = 1 +- 2H D + K D^2 and integrated
+   curvatures n = 2H +- 2 K D of parallel surfaces and the curvature m each wants:
+     kc/4 sum [n^2/A - 2 m n + m^2 A],   n^2/A = (2H)^2 + w (n^2/A - (2H)^2).
+   w is 1 but where a radius of curvature nears D, as next to control points of irregular valence, and 0 before A is:
+   there it falls with x = D^2 (k1^2 + k2^2) = D^2 ((2H)^2 - 2 K) as 1 - t^3 (10 - 15 t + 6 t^2)
 ------------------------------------------------------------------------- */
 
 class Leaflets {
@@ -105,32 +108,49 @@ class Leaflets {
 
   struct Density {
     Lane value, by_curvature, by_gaussian;
-    Lane room;    // least of the areas A and their mean principal stretches
+    Lane bend;    // x
   };
   Density at(const Lane &curvature, const Lane &K) const
   {
-    const Lane KD = K * D, hD = curvature * D, sum = 1.0 + KD * D;
-    const Lane up = sum + hD, down = sum - hD, inverse = 1.0 / (up * down);
-    const Lane above = (curvature + 2.0 * KD) * down * inverse;
-    const Lane below = (curvature - 2.0 * KD) * up * inverse;
-    const Lane e_up = quarter * (above - outer), e_down = quarter * (below + inner);
-    const Lane s_up = (above + outer) * D, s_down = (below - inner) * D;
+    const Lane KD = K * D, hD = curvature * D, sum = 1.0 + KD * D, square = curvature * curvature;
+
+    // of A no less than where w is 0
+
+    Lane up = sum + hD, down = sum - hD;
+    const Lane grown = up, shrunk = down;
+    up = up < LEAST_AREA ? Lane{} + LEAST_AREA : up;
+    down = down < LEAST_AREA ? Lane{} + LEAST_AREA : down;
+    const Lane inverse = 1.0 / (up * down);
+    const Lane n_up = curvature + 2.0 * KD, n_down = curvature - 2.0 * KD;
+    const Lane above = n_up * down * inverse, below = n_down * up * inverse;    // 2H of the leaflets
 
     Density e;
-    e.value = e_up * (above - outer) * up + e_down * (below + inner) * down;
-    e.by_curvature = e_up * (2.0 - s_up) + e_down * (2.0 + s_down);
-    e.by_gaussian = D * (e_up * (4.0 - s_up) - e_down * (4.0 + s_down));
-    const Lane size = hD < 0.0 ? -hD : hD, least = sum - size, stretch = 1.0 - 0.5 * size;
-    e.room = least < stretch ? least : stretch;
+    e.bend = D * (hD * curvature - 2.0 * KD);
+    Lane t = (e.bend - LEAFLETS_EXACT) * (1.0 / (LEAFLETS_THIN - LEAFLETS_EXACT));
+    t = t < 0.0 ? Lane{} : t;
+    t = t > 1.0 ? Lane{} + 1.0 : t;
+    const Lane w = 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
+    const Lane more = n_up * above + n_down * below - 2.0 * square;
+    const Lane slope = (-30.0 / (LEAFLETS_THIN - LEAFLETS_EXACT)) * t * t * (1.0 - t) * (1.0 - t) * more * D;    // by x, times D
+
+    e.value = 2.0 * square + w * more - 2.0 * (outer * n_up - inner * n_down) + outer * outer * grown + inner * inner * shrunk;
+    e.by_curvature = 4.0 * (1.0 - w) * curvature + w * (above * (2.0 - above * D) + below * (2.0 + below * D)) +
+        2.0 * slope * hD - 2.0 * (outer - inner) + D * (outer * outer - inner * inner);
+    e.by_gaussian = D * (w * (above * (4.0 - above * D) - below * (4.0 + below * D)) - 2.0 * slope - 4.0 * (outer + inner) +
+                         D * (outer * outer + inner * inner));
+    e.value *= quarter;
+    e.by_curvature *= quarter;
+    e.by_gaussian *= quarter;
     return e;
   }
 
  private:
+  static constexpr double LEAST_AREA = 0.1;    // (1 - sqrt(LEAFLETS_THIN)) = 0.106
   Lane quarter, D, outer, inner;
 };
 
 struct BlockEnergies {
-  Lane bending, gauss, area, room;
+  Lane bending, gauss, area, bend;    // bend: of leaflets
 };
 
 /* ----------------------------------------------------------------------
@@ -163,7 +183,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
   const Lane bend = MOMENT ? load(model.moment, slot) : Lane{};
   const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
 
-  Lane bending{}, gauss{}, area{}, room = Lane{} + 1.0;
+  Lane bending{}, gauss{}, area{}, bent{};
   for (int k = 0; k < size; ++k) g[k] = Lane3{};
 
   for (int q = 0; q < rule.npoints; ++q) {
@@ -206,7 +226,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     if (LEAFLETS) {
       const Lane K = gaussian * inverse;
       const Leaflets::Density e = leaflets.at(curvature, K);
-      room = e.room < room ? e.room : room;
+      bent += weight * e.bend * J;
       bending += weight * e.value * J;
       moment = weight * e.by_curvature * inverse;
       e_W = (0.5 * weight) * (e.value - K * e.by_gaussian + tension) * inverse - 1.5 * curvature * moment;
@@ -258,7 +278,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
       g[k] = sum;
     }
   }
-  out = {bending, gauss, area, room};
+  out = {bending, gauss, area, bent};
 }
 
 // the compiler unrolls loops over frequent numbers of control points; 0 is any
@@ -351,7 +371,7 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
     if (!out.bending.empty()) store(out.bending, slot, sum.bending);
     if (!out.gauss.empty()) store(out.gauss, slot, sum.gauss);
     if (!out.area.empty()) store(out.area, slot, sum.area);
-    if (!out.leaflet_room.empty()) store(out.leaflet_room, slot, sum.room);
+    if (!out.leaflet_bend.empty()) store(out.leaflet_bend, slot, sum.bend / sum.area);
     if (!out.virial.empty()) {
       const Lane3 origin = terms.volume ? load3(model.origin, slot) : p[0];
       Lane v[6] = {};

@@ -28,6 +28,10 @@ struct FaceTerms {
   bool leaflets = false;    ///< the model has them
 };
 
+/** Of D^2 (k1^2 + k2^2): up to EXACT leaflets have the energy of parallel surfaces, from THIN on its expansion to second
+    order in D k, and a mixture in between. A parallel surface has a cusp at 1 or beyond. */
+constexpr double LEAFLETS_EXACT = 0.5, LEAFLETS_THIN = 0.8;
+
 /// Integrals over each face, by slot. Empty arrays are not computed.
 struct FaceIntegrals {
   std::vector<double> area;           ///< [slots] dA
@@ -40,8 +44,7 @@ struct FaceIntegrals {
 /// Energies and virials of each face, by slot. Empty arrays are not computed.
 struct FaceEnergies {
   std::vector<double> bending, gauss, area;    ///< [slots]
-  std::vector<double> leaflet_room;    ///< [slots] of leaflets: 1 where flat, 0 where a radius of curvature is
-                                       ///< the leaflet's distance, at a point of quadrature
+  std::vector<double> leaflet_bend;    ///< [slots] of leaflets: the mean of D^2 (k1^2 + k2^2), see LEAFLETS_EXACT
   std::vector<double> virial;    ///< [slots][6] xx yy zz xy xz yz of sum r f, r from the origin if
                                  ///< the scene has a volume term, else from the first corner
 };

@@ -17,6 +17,7 @@
 
 #include "membrane_molecule_build.h"
 
+#include "membrane_lipid_numbers.h"
 #include "membrane_molecule_rings.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ static constexpr int FIRST_STEPS = 100, STEPS = 50, LAST_STEPS = 150, ROUNDS = 4
 static constexpr double HURTS = 0.04;           // energy of a lipid that Monte Carlo is for
 static constexpr double TEMPERATURE = 0.005, SLIDE = 1.5;
 static constexpr size_t MOST_NAMED = 5;
+static constexpr int KINDS = 3000000;               // purpose of random numbers, and one more
 
 namespace {
 
@@ -55,6 +57,16 @@ void check_curvature(const ParallelSurfaces &part, const LeafletPatches &patches
                              1.0 / std::fabs(narrowest.curvature), at[0], at[1], at[2],
                              leaflet == OUTER ? "outer" : "inner", std::fabs(height)));
   }
+}
+
+LipidNumbers numbers_of(const LipidCrowd &crowd)
+{
+  LipidNumbers numbers(crowd.parts().size());
+  for (auto &part : numbers)
+    for (auto &leaflet : part) leaflet.assign(crowd.library().species.size(), 0);
+  for (size_t i = 0; i < crowd.lipids.size(); ++i)
+    ++numbers[crowd.lipids[i].part][crowd.lipids[i].leaflet][crowd.conformer_of(static_cast<int>(i)).species];
+  return numbers;
 }
 
 /* ----------------------------------------------------------------------
@@ -195,10 +207,24 @@ LipidNumbers Membrane_NS::numbers_from_patch(const std::vector<ParallelSurfaces>
   return numbers;
 }
 
+LipidNumbers Membrane_NS::numbers_from_faces(const std::vector<ParallelSurfaces> &parts,
+                                             const std::vector<MembranePart> &membranes, const LeafletPatches &patches,
+                                             const FaceComposition &composition)
+{
+  LipidNumbers numbers(parts.size());
+  for (size_t p = 0; p < parts.size(); ++p)
+    for (int leaflet = 0; leaflet < LEAFLETS; ++leaflet) {
+      const std::vector<double> sum = composition.sum(membranes[p], leaflet);
+      const double area = parts[p].area(sign_of(leaflet) * patches[leaflet]->neutral[leaflet]);
+      numbers[p][leaflet] = largest_remainders(sum, static_cast<int>(std::lround(area / composition.area_per_lipid(sum))));
+    }
+  return numbers;
+}
+
 Structure Membrane_NS::build_structure(const LimitSurface &surface, const Vector3d &origin,
                                        const std::vector<MembranePart> &membranes, const LeafletPatches &patches,
-                                       PatchLipids &library, const std::vector<PlacedProtein> &proteins, uint64_t seed,
-                                       Team &team, BuildReport &report)
+                                       PatchLipids &library, const std::vector<PlacedProtein> &proteins,
+                                       const FaceComposition *composition, uint64_t seed, Team &team, BuildReport &report)
 {
   Structure structure;
   structure.lattice = surface.lattice();
@@ -211,12 +237,17 @@ Structure Membrane_NS::build_structure(const LimitSurface &surface, const Vector
     check_curvature(parts.back(), patches);
     report.areas.push_back({parts.back().area(patches[OUTER]->neutral[OUTER]),
                             parts.back().area(-patches[INNER]->neutral[INNER])});
+    std::array<double, LEAFLETS> asked;
+    for (int leaflet = 0; leaflet < LEAFLETS; ++leaflet)
+      asked[leaflet] = report.areas.back()[leaflet] /
+          (composition ? composition->area_per_lipid(composition->sum(membrane, leaflet)) : patches[leaflet]->area_per_lipid(leaflet));
+    report.asked.push_back(asked);
   }
   const FixedAtoms fixed = fix_proteins(proteins, library);
   library.contacts.settle(library.clash);
   const std::array<double, LEAFLETS> neutral = {patches[OUTER]->neutral[OUTER], patches[INNER]->neutral[INNER]};
   LipidCrowd crowd(library, parts, neutral, fixed, seed, team);
-  report.exact = proteins.empty();
+  report.exact = proteins.empty() && !composition;
   for (size_t p = 0; p < parts.size(); ++p) {
     bool exact;
     const auto sites = lay_out(parts[p], patches, CounterRandom(seed, 1000000 + p), team, exact);
@@ -227,9 +258,15 @@ Structure Membrane_NS::build_structure(const LimitSurface &surface, const Vector
   }
   team.say(text("  %d lipids laid out", static_cast<int>(crowd.lipids.size())));
 
-  report.numbers = numbers_from_patch(parts, patches, library);
+  // kinds by face before proteins make room, which have to displace the lipids that are there, and once more for those
+  // that numbers added
+
+  report.numbers = composition ? numbers_from_faces(parts, membranes, patches, *composition)
+                               : numbers_from_patch(parts, patches, library);
   if (!report.exact) {
+    if (composition) follow_faces(crowd, membranes, *composition, report.numbers, KINDS);
     const auto displaced = fit_numbers(crowd, report.numbers);
+    if (composition) follow_faces(crowd, membranes, *composition, numbers_of(crowd), KINDS + 1);
     report.displaced = displaced[OUTER] + displaced[INNER];
     relax(crowd, origin, report);
   } else {
@@ -241,10 +278,7 @@ Structure Membrane_NS::build_structure(const LimitSurface &surface, const Vector
 
   // numbers as they are
 
-  for (auto &part : report.numbers)
-    for (auto &leaflet : part) std::fill(leaflet.begin(), leaflet.end(), 0);
-  for (size_t i = 0; i < crowd.lipids.size(); ++i)
-    ++report.numbers[crowd.lipids[i].part][crowd.lipids[i].leaflet][crowd.conformer_of(static_cast<int>(i)).species];
+  report.numbers = numbers_of(crowd);
 
   structure.species = library.species;
   add_proteins(proteins, fixed, structure);

@@ -14,19 +14,13 @@
 #ifndef LMP_MEMBRANE_MOLECULE_BUILD_H
 #define LMP_MEMBRANE_MOLECULE_BUILD_H
 
-#include "membrane_molecule_crowd.h"
+#include "membrane_molecule_composition.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace Membrane_NS {
-
-/// A connected membrane, to be built of lipids.
-struct MembranePart {
-  std::vector<int> faces;    ///< of the limit surface
-  long long membrane;        ///< what it is called
-};
 
 /// A molecule that is put where it is told, under which there are no lipids.
 struct PlacedProtein {
@@ -42,6 +36,10 @@ using LipidNumbers = std::vector<std::array<std::vector<int>, LEAFLETS>>;
     does not come out whole goes to the largest remainders. */
 LipidNumbers numbers_from_patch(const std::vector<ParallelSurfaces> &parts, const LeafletPatches &patches,
                                 const PatchLipids &library);
+
+/// The same with the proportions and areas of lipids on faces.
+LipidNumbers numbers_from_faces(const std::vector<ParallelSurfaces> &parts, const std::vector<MembranePart> &membranes,
+                                const LeafletPatches &patches, const FaceComposition &composition);
 
 /// All molecules of a structure, in the order in which they are written.
 struct Structure {
@@ -69,6 +67,7 @@ struct Structure {
 struct BuildReport {
   LipidNumbers numbers;
   std::vector<std::array<double, LEAFLETS>> areas;    ///< of neutral surfaces, by part
+  std::vector<std::array<double, LEAFLETS>> asked;    ///< lipids that these have room for
   bool exact = false;                                 ///< copies of the patch on planes: nothing was moved
   int clashes_before = 0, clashes = 0;                ///< lipids, see LipidCrowd::Report
   double closest = 0.0;
@@ -79,10 +78,12 @@ struct BuildReport {
 
 /** Lays lipids on the surfaces, brings them to the numbers, and relaxes them. All is the same for any team.
     origin: the corner of the box, which the limit surface does not know.
+    composition: if given, which lipids there are where, in place of those of the patch.
     Throws MoleculeError where the surface is curved too much for the thickness of a patch. */
 Structure build_structure(const LimitSurface &surface, const Eigen::Vector3d &origin,
                           const std::vector<MembranePart> &membranes, const LeafletPatches &patches, PatchLipids &library,
-                          const std::vector<PlacedProtein> &proteins, uint64_t seed, Team &team, BuildReport &report);
+                          const std::vector<PlacedProtein> &proteins, const FaceComposition *composition, uint64_t seed,
+                          Team &team, BuildReport &report);
 
 }    // namespace Membrane_NS
 

@@ -17,6 +17,7 @@
 #include "membrane_lipid_library.h"
 #include "membrane_lipid_numbers.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -25,6 +26,15 @@ namespace LAMMPS_NS {
 struct LipidPlaces {
   const Membrane_NS::FaceLipids *lipids = nullptr;    ///< null before the first run
   std::vector<Membrane_NS::LipidKind> kinds;
+  const class DistributedMesh *mesh = nullptr;        ///< whose faces they are on, and which generation of them
+  int generation = 0;
+
+  /// Those of the present faces of a mesh; null if there are none, or faces have changed since the last run.
+  static const LipidPlaces *on(const class DistributedMesh &, class Modify *);
+  /// The number of a kind, or -1.
+  int kind(const std::string &name) const;
+  /// So many of the lipids of a face and leaflet are of this kind.
+  int count(int leaflet, int face, int kind) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -117,6 +117,9 @@ void MoleculesBuild::command(int narg, char **arg)
     for (const std::string &note : one.notes)
       if (comm->me == 0) utils::logmesg(lmp, "membrane_build: {}: {}\n", one.path, note);
 
+  FaceComposition composition;
+  if (from_lipids) composition = face_composition(mesh, parts, library);
+
   // proteins of one file share it
 
   try {
@@ -131,7 +134,8 @@ void MoleculesBuild::command(int narg, char **arg)
   Structure structure;
   if (comm->me == 0) utils::logmesg(lmp, "membrane_build:\n");
   try {
-    structure = build_structure(surface, Vector3d(domain->boxlo) * angstrom, parts, of, library, placed, seed, team, built);
+    structure = build_structure(surface, Vector3d(domain->boxlo) * angstrom, parts, of, library, placed,
+                                from_lipids ? &composition : nullptr, seed, team, built);
   } catch (const MoleculeError &err) {
     message = err.what();
   } catch (const std::bad_alloc &) {
@@ -244,10 +248,8 @@ void MoleculesBuild::parse(int narg, char **arg)
     error->all(FLERR, "membrane_build: a PSF file without the structure that it is of");
   if (both && leaflets[OUTER].psf.empty() != leaflets[INNER].psf.empty())
     error->all(FLERR, "membrane_build: give a PSF file for both of inner and outer, or for none");
-  if (composition == "from/lipids")
-    error->all(FLERR, "membrane_build composition from/lipids needs a fix hd/lipids, which this package does not have yet; use "
-                      "from/patch");
-  if (composition != "from/patch")
+  from_lipids = composition == "from/lipids";
+  if (!from_lipids && composition != "from/patch")
     error->all(FLERR, "membrane_build composition {} is not from/patch or from/lipids", composition);
   if (name.empty()) error->all(FLERR, "membrane_build needs out and a name: its files get this name and extensions");
   if (angstrom == 0.0)
@@ -385,9 +387,8 @@ void MoleculesBuild::report(const BuildReport &built, const std::vector<Membrane
           names += fmt::format("{}{} {}", names.empty() ? "" : ", ", number, library.species[s].name);
         }
       total += count;
-      const double wanted = built.areas[p][leaflet] / of[leaflet]->area_per_lipid(leaflet);
       text += fmt::format("  membrane {} {} leaflet: {} lipids, {:.2f} by its area ({}), neutral surface {:.2f} from the middle\n",
-                          parts[p].membrane, leaflet == OUTER ? "outer" : "inner", count, wanted, names,
+                          parts[p].membrane, leaflet == OUTER ? "outer" : "inner", count, built.asked[p][leaflet], names,
                           of[leaflet]->neutral[leaflet]);
     }
   if (built.exact) text += "  planes of whole multiples of the patch: copies of it, unchanged\n";

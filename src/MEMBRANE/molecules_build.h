@@ -45,7 +45,7 @@ class MoleculesBuild : public Command {
     Source source;
   };
   std::vector<Protein> proteins;
-  bool flip = false, overwrite = false;
+  bool flip = false, overwrite = false, from_lipids = false;
   uint64_t seed = 1;
   double clash = 0.0, neutral = 0.0;
   double angstrom = 0.0;            // in a unit of length of the simulation
@@ -60,6 +60,8 @@ class MoleculesBuild : public Command {
   std::vector<Membrane_NS::MembranePart> membranes(const class DistributedMesh &) const;
   std::vector<Membrane_NS::PlacedProtein> place_proteins(const Membrane_NS::LimitSurface &) const;
   void agree(const std::string &message) const;
+  Membrane_NS::FaceComposition face_composition(const class DistributedMesh &, const std::vector<Membrane_NS::MembranePart> &,
+                                                const Membrane_NS::PatchLipids &) const;
   void report(const Membrane_NS::BuildReport &, const std::vector<Membrane_NS::MembranePart> &,
               const Membrane_NS::PatchLipids &, const Membrane_NS::LeafletPatches &) const;
   void write(const Membrane_NS::Structure &);

@@ -24,6 +24,8 @@
 #include "fix_hd_bound.h"
 #include "mesh_distributed.h"
 #include "mesh_gather.h"
+#include "mesh_lipid_places.h"
+#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -166,7 +168,7 @@ void WriteMembrane::parse_format()
 ------------------------------------------------------------------------- */
 
 TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh, std::vector<double> &labels,
-                                         std::vector<int> &vertices) const
+                                         std::vector<int> &vertices, std::vector<int> &faces) const
 {
   const Topology &topology = mesh.topology();
   const TriangleMesh all = mesh.triangle_mesh();
@@ -183,9 +185,12 @@ TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh, std::vecto
     labels.push_back(molecule);
     vertices.push_back(v);
   }
-  for (const Face &face : all.faces)
-    if (number[face[0]] >= 0)
-      part.faces.push_back({number[face[0]], number[face[1]], number[face[2]]});
+  for (size_t f = 0; f < all.faces.size(); ++f) {
+    const Face &face = all.faces[f];
+    if (number[face[0]] < 0) continue;
+    part.faces.push_back({number[face[0]], number[face[1]], number[face[2]]});
+    faces.push_back(static_cast<int>(f));
+  }
   return part;
 }
 
@@ -194,8 +199,8 @@ TriangleMesh WriteMembrane::control_mesh(const DistributedMesh &mesh, std::vecto
 WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
 {
   std::vector<double> labels;
-  std::vector<int> vertices;
-  const TriangleMesh control = control_mesh(mesh, labels, vertices);
+  std::vector<int> vertices, faces;
+  const TriangleMesh control = control_mesh(mesh, labels, vertices, faces);
   const Topology topology(control.points.size(), control.faces);
 
   // n = 1 has the vertices and faces of the control mesh, and its curvatures are those of the limit
@@ -228,10 +233,12 @@ WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
   Surface what;
   if (format == Format::TSI) set_vertices(topology, cut, vertices, what);
   what.mesh = std::move(cut.mesh);
-  if (fields && format_has_fields())
+  if (fields && format_has_fields()) {
     what.fields = {{"mean_curvature", std::move(cut.mean_curvature)},
                    {"gaussian_curvature", std::move(cut.gaussian_curvature)},
                    {"membrane", std::move(membrane)}};
+    add_lipids(mesh, topology, faces, n, what.fields);
+  }
 
   // what has a box that begins at 0
 
@@ -253,6 +260,42 @@ WriteMembrane::Surface WriteMembrane::surface(const DistributedMesh &mesh) const
     }
   }
   return what;
+}
+
+/* ----------------------------------------------------------------------
+   fractions of kinds of single lipids, if there are any: at each point those of the lipids of all faces it lies on.
+   `of` are the faces of the whole mesh.
+------------------------------------------------------------------------- */
+
+void WriteMembrane::add_lipids(const DistributedMesh &mesh, const Topology &topology, const std::vector<int> &of, int n,
+                               Membrane_NS::PointFields &into) const
+{
+  const LipidPlaces *places = LipidPlaces::on(mesh, modify);
+  if (!places) return;
+  const Membrane_NS::TessellationNumbering numbering(topology, n);
+  const int nkinds = static_cast<int>(places->kinds.size()), npoints = numbering.num_points();
+  for (int leaflet = 0; leaflet < 2; ++leaflet) {
+    std::vector<std::vector<double>> number(nkinds, std::vector<double>(npoints, 0.0));
+    std::vector<double> all(npoints, 0.0), total(nkinds, 0.0);
+    std::vector<int> here(nkinds);
+    for (int f = 0; f < topology.num_faces(); ++f) {
+      std::fill(here.begin(), here.end(), 0);
+      places->lipids->count(leaflet, of[f], here.data());
+      for (int k = 0; k < nkinds; ++k) total[k] += here[k];
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i + j <= n; ++i) {
+          const int p = numbering.number(f, i, j);
+          all[p] += places->lipids->size(leaflet, of[f]);
+          for (int k = 0; k < nkinds; ++k) number[k][p] += here[k];
+        }
+    }
+    for (int k = 0; k < nkinds; ++k) {
+      if (total[k] == 0.0) continue;
+      for (int p = 0; p < npoints; ++p)
+        if (all[p] > 0.0) number[k][p] /= all[p];
+      into.emplace_back((leaflet == 0 ? "outer_" : "inner_") + places->kinds[k].name, std::move(number[k]));
+    }
+  }
 }
 
 /* ----------------------------------------------------------------------

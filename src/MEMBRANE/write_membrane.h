@@ -64,11 +64,14 @@ class WriteMembrane : public Command {
   void parse_format();
   bool format_has_fields() const { return format == Format::PLY || format == Format::VTP; }
   Membrane_NS::TriangleMesh control_mesh(const class DistributedMesh &,
-                                         std::vector<double> &labels, std::vector<int> &vertices) const;
+                                         std::vector<double> &labels, std::vector<int> &vertices,
+                                         std::vector<int> &faces) const;
   void gather_vertices(const DistributedMesh &);
   Surface surface(const DistributedMesh &) const;
   void set_vertices(const Membrane_NS::Topology &, const Membrane_NS::TessellatedSurface &, const std::vector<int> &of,
                     Surface &) const;
+  void add_lipids(const class DistributedMesh &, const Membrane_NS::Topology &, const std::vector<int> &faces,
+                  int points, Membrane_NS::PointFields &) const;
   void write(const Surface &) const;
 };
 

@@ -125,7 +125,7 @@ Built build(const TriangleMesh &mesh, const MoleculeFile &file, bool flip = fals
   for (int f = 0; f < built.topology->num_faces(); ++f) part.faces.push_back(f);
   Team alone;
   built.structure = build_structure(*built.surface, Vector3d::Zero(), {part}, {&built.patch, &built.patch}, built.library,
-                                    proteins, 7, alone, built.report);
+                                    proteins, nullptr, 7, alone, built.report);
   return built;
 }
 

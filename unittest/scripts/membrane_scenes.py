@@ -42,9 +42,9 @@ TETRAHEDRON = ([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)],
 
 class Scene:
     def __init__(self, commands, box="block -2 2 -2 2 -2 2", noise=0.03, closed=True, types=2,
-                 mesh=None, bounded=True):
+                 mesh=None):
         self.commands, self.box, self.noise = commands, box, noise
-        self.closed, self.types, self.mesh, self.bounded = closed, types, mesh, bounded
+        self.closed, self.types, self.mesh = closed, types, mesh
 
     def setup(self, quadrature=6, before="", style="helfrich quadrature {}"):
         if self.mesh:
@@ -85,11 +85,11 @@ SCENES = {
         "create_membrane 2 sphere 1 0.8 center  1.1 0 0\n"
         "create_membrane 1 torus 8 6 0.6 0.25 center 0 1.5 1.5"),
     "tetrahedron": Scene(f"create_membrane 1 file tetrahedron.off scale 0.8 0.8 0.8\n{HALVES}",
-                         mesh=("tetrahedron.off", *TETRAHEDRON), bounded=False),
+                         mesh=("tetrahedron.off", *TETRAHEDRON)),
     "valence 3": Scene(f"create_membrane 1 file bipyramid3.off refine 1\n{HALVES}",
-                       mesh=("bipyramid3.off", *bipyramid(3)), noise=0.02, bounded=False),
+                       mesh=("bipyramid3.off", *bipyramid(3)), noise=0.02),
     "valence 12": Scene(f"create_membrane 1 file bipyramid12.off refine 1\n{HALVES}",
-                        mesh=("bipyramid12.off", *bipyramid(12)), noise=0.01, bounded=False),
+                        mesh=("bipyramid12.off", *bipyramid(12)), noise=0.01),
     "tilted box, sphere across its corner": Scene(
         f"create_membrane 1 sphere 1 1.2 {CORNER}\n{HALVES}", box="prism -2 2 -2 2 -2 2 0.7 -0.5 0.9"),
     "tilted box, plane": Scene(f"create_membrane 1 plane 7 8\n{HALVES}", noise=0.1, closed=False,
@@ -117,7 +117,6 @@ TERMS = {
                   f"15.0 -0.4 kg -5.0 tension 5.0 {GLOBAL}"),
 }
 NEEDS_CLOSED = ("volume", "pressure")
-NEEDS_BOUNDED_CURVATURE = ("leaflets",)    # which there is not where the valence is 3, 7 or more
 
 
 def coefficients(term, closed=True, style=""):

@@ -1,5 +1,8 @@
 """fix hd/lipids: whole lipids on faces, their exchange, and what commands between two runs do to them."""
-# cost: 15
+# cost: 18
+
+import re
+import struct
 
 from lammps_claims import LONG, MPIEXEC, claim, error_of, finish, run, thermo
 
@@ -121,6 +124,32 @@ rows = thermo(run(TWO + "run 20\ngroup first molecule 1\ndelete_atoms group firs
 claim("delete_atoms of one of two membranes: the other keeps its lipids",
       same_places(rows[3], rows[2]), numbers(rows[3]))
 
+# === Pictures
+
+def vtp_fields(path):
+    text = open(path, "rb").read().decode("latin1")
+    return re.findall(r'Name="((?:outer|inner)_\w+)"', text)
+
+
+output = run(start() + "run 5\nwrite_membrane lipids.vtp subdivide 2\nwrite_membrane lipids.ply subdivide 1\n")
+claim("write_membrane: a field for each kind and leaflet",
+      vtp_fields("lipids.vtp") == ["outer_A", "outer_B", "outer_C", "inner_A", "inner_B"], vtp_fields("lipids.vtp"))
+header, data = open("lipids.ply", "rb").read().split(b"end_header\n")
+names = re.findall(rb"property (\w+) (\w+)\n", header.split(b"element face")[0])
+size = {b"double": ("d", 8), b"float": ("f", 4), b"int": ("i", 4)}
+row = struct.Struct("<" + "".join(size[kind][0] for kind, _ in names))
+count = int(re.search(rb"element vertex (\d+)", header)[1])
+points = [dict(zip([name.decode() for _, name in names], row.unpack_from(data, i * row.size))) for i in range(count)]
+claim("  fractions of a point sum to one, and differ from point to point",
+      all(abs(sum(p[f"outer_{k}"] for k in "ABC") - 1.0) < 1e-5 for p in points) and len({p["outer_A"] for p in points}) > 10)
+mean = sum(p["outer_A"] for p in points) / count
+claim("  and are near the composition", abs(mean - 0.5) < 0.05, mean)
+
+PICTURE = "dump d all membrane/image 5 lipids.*.ppm type type size 100 100 box no 0 axes no 0 0\ndump_modify d surface {} range 0 1\nrun 5\n"
+output = run(start() + PICTURE.format("outer A"))
+claim("dump membrane/image colors by a kind", "colors membranes by the part of A from 0 to 1" in output and
+      len(set(open("lipids.5.ppm", "rb").read())) > 20)
+
 # === Bad input
 
 for text, script in {
@@ -136,6 +165,8 @@ for text, script in {
         "control points of membrane 1; use a group": start().replace("fix x all", "group some id < 50\nfix x some"),
         "no single lipids are on faces; use fix hd/lipids": start() + "unfix x\nthermo_style custom step c_n[1]\n",
         "no membrane has the lipid D": start().replace("outer A inner B curvature", "outer D inner B curvature"),
+        "dump_modify surface outer: no membrane has the lipid D": start() + PICTURE.format("outer D"),
+        "dump_modify surface inner: no single lipids are on faces": start().split("fix x")[0] + PICTURE.format("inner A"),
         "Unknown compute membrane/lipids keyword top": start().replace("outer A inner B", "top A"),
 }.items():
     line = error_of(script + "run 5\n")

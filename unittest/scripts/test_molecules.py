@@ -329,6 +329,50 @@ def error(options, shape=PLANE, box=PLANE_BOX, **more):
     return error_of(script(shape, box, options), **more)
 
 
+# === Kinds of lipids as they are on faces
+
+with open("mixed.pdb", "w") as file:
+    for line in open("patch.pdb"):
+        name = "LIPA" if line[22:26].strip().isdigit() and int(line[22:26]) % 2 else "LIPB"
+        file.write(line[:17] + name + line[21:] if line.startswith(("ATOM", "HETATM")) else line)
+
+
+def kinds_of(path):
+    """Of each lipid of a PDB file its leaflet, kind and height."""
+    lipids = {}
+    for line in open(path):
+        if line.startswith(("ATOM", "HETATM")):
+            entry = lipids.setdefault((line[21], line[22:26]), [line[21], line[17:21], []])
+            entry[2].append(float(line[46:54]))
+    chains = sorted({entry[0] for entry in lipids.values()})
+    middle = sum(sum(z) / len(z) for _, _, z in lipids.values()) / len(lipids)    # the box of the file begins at 0
+    return [(chains.index(chain), kind, sum(z) / len(z) - middle) for chain, kind, z in lipids.values()]
+
+
+LIPIDS = """
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0 lipids NULL library LIPA 60 0.0 library LIPB 66 0.0 outer LIPA 1 LIPB 3 inner LIPA 3 LIPB 1
+pair_coeff      2 2 10.0 0.0 lipids NULL library LIPA 60 0.0 library LIPB 66 0.0 outer LIPB 1 inner LIPA 1
+region          top block INF INF INF INF 0 INF
+set             region top type 2
+"""
+for how, more in (("pair_coeff", ""), ("fix hd/lipids", "fix x all hd/lipids 1 300.0 4711 global 1\nrun 0\n")):
+    remove("kinds")
+    output = run(script(SPHERE, BOX, "patch mixed.pdb composition from/lipids format pdb out kinds", LIPIDS + more))
+    lipids = kinds_of("kinds.pdb")
+    claim(f"composition from/lipids, of {how}", f"lipids are those of {how}" in output)
+    for leaflet, kind, part in ((0, "LIPB", 0.75), (1, "LIPA", 0.75)):
+        here = [(k, z) for l, k, z in lipids if l == leaflet]
+        top, bottom = [k for k, z in here if z > 12], [k for k, z in here if z < -12]
+        claim(f"    leaflet {leaflet}: one kind on the half that has one, and a mixture on the other",
+              all(k == kind for k in top) and abs(bottom.count(kind) / len(bottom) - part) < 0.03,
+              f"{bottom.count(kind)} of {len(bottom)}")
+    for leaflet in ("outer", "inner"):
+        number, wanted = numbers_of(output, leaflet)
+        claim(f"    as many as fit: {leaflet}", abs(number - wanted) <= 0.5, f"{number} {wanted}")
+claim("error: a lipid that no patch has", "no patch has the lipid LIPC; they have: LIP" in error_of(
+    script(SPHERE, BOX, "patch mixed.pdb composition from/lipids out bad", LIPIDS.replace("LIPB", "LIPC"))))
+
 remove("bad")
 for options, expected in (
         ("patch none.pdb out bad", "cannot read none.pdb"),
@@ -338,7 +382,7 @@ for options, expected in (
         ("inner small.pdb out bad", "needs a patch, or else"),
         ("patch small.pdb psf patch.psf out bad", "take the PSF of this structure"),
         ("patch small.pdb psf small.pdb out bad", "begins with the word PSF"),
-        ("patch small.pdb composition from/lipids out bad", "fix hd/lipids"),
+        ("patch small.pdb composition from/lipids out bad", "say lipids in pair_coeff"),
         ("patch small.pdb composition POPC out bad", "from/patch or from/lipids"),
         ("patch small.pdb format xyz out bad", "not one of pdb"),
         ("patch small.pdb format psf out bad", "needs the PSF file"),
