@@ -130,8 +130,7 @@ def coefficients(term, closed=True, style=""):
 
 
 def terms_of(scene):
-    return [term for term in TERMS if (scene.closed or term not in NEEDS_CLOSED) and
-            (scene.bounded or term not in NEEDS_BOUNDED_CURVATURE)]
+    return [term for term in TERMS if scene.closed or term not in NEEDS_CLOSED]
 
 
 def read_dump(path):

