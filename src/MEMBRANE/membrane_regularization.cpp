@@ -98,8 +98,9 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
 
 /* ---------------------------------------------------------------------- */
 
-// a face with more D/A than this is kept from collapse
-static constexpr double BARRIER = 1.3;
+// of regularize_faces(), so that faces of an irregular mesh are of similar sizes; and a face with more D/A than
+// this is kept from collapse
+static constexpr double PLAIN = 0.1, BARRIER = 1.3;
 
 std::vector<int> Membrane_NS::edge_families(const Topology &topology)
 {
@@ -174,16 +175,18 @@ double Membrane_NS::conformal_faces(const FaceGroup &group, const double (*x)[3]
     const int slot = group.first_slot + s;
     if (modulus[slot] == 0.0) continue;
     const FaceCorners corners(group, s, x);
-    double *v = of_slot(virial, slot);
-    const double ratio = face_distortion(x[corners.point[0]], x[corners.point[1]], x[corners.point[2]]);
+    Vector3d gradient[2];
+    const double ratio = distortion(corners, gradient);
     worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
+    double *v = of_slot(virial, slot);
+    double law = PLAIN * (ratio - 1.0), slope = PLAIN;
     if (ratio > BARRIER) {
-      Vector3d gradient[2];
-      distortion(corners, gradient);
-      const double slope = modulus[slot] * (BARRIER * BARRIER / (ratio * ratio) - 1.0);
-      if (!energy.empty()) energy[slot] += modulus[slot] * (ratio - BARRIER) * (ratio - BARRIER) / ratio;
-      corners.add({slope * gradient[0], slope * gradient[1]}, f, v);
+      law += (ratio - BARRIER) * (ratio - BARRIER) / ratio;
+      slope += 1.0 - BARRIER * BARRIER / (ratio * ratio);
     }
+    slope *= -modulus[slot];
+    if (!energy.empty()) energy[slot] += modulus[slot] * law;
+    corners.add({slope * gradient[0], slope * gradient[1]}, f, v);
 
     const double weight = modulus[slot] / 9.0;
     for (int k = 0; k < 3; ++k) {

@@ -91,8 +91,9 @@ for kind in ("", "conformal"):
 expected = 0.5 * (2 * math.log(1.05)) ** 2 * 2 * 168
 claim("without conformal the mesh of a sheet resists uniform shear", abs(costs["", 1] / expected - 1) < 0.1,
       f"{costs['', 1]:.3f}, expected {expected:.3f}")
-claim("with conformal it does not", abs(costs["conformal", 1] / costs["", 1]) < 0.01, f"{costs['conformal', 1]:.4f}")
-claim("on two ranks likewise", abs(costs["conformal", 2] - costs["conformal", 1]) < 1e-8 * costs["", 1])
+claim("with conformal it does not, but for the tenth that is as without it",
+      abs(costs["conformal", 1] / costs["", 1] - 0.1) < 0.02, f"{costs['conformal', 1]:.4f}")
+claim("on two ranks likewise", abs(costs["conformal", 2] / costs["conformal", 1] - 1) < 1e-8)
 
 # === Spectra
 
