@@ -178,10 +178,12 @@ void RegularizeTerm::find_across(const HelfrichScene &scene, const double (*x)[3
   across.assign(3 * conformal.size(), 0);
   family.assign(across.size(), -1);
   logs.assign(across.size(), 0.0);
+  sphere_of.assign(conformal.size(), -1);
   for (const FaceGroup &group : scene.groups)
     for (int s = 0; s < group.nfaces; ++s) {
       const int f = group.face[s];
       const Membrane_NS::Face &face = topology.face(f);
+      sphere_of[group.first_slot + s] = sphere[topology.component(face[0])];
       for (int k = 0; k < 3; ++k) {
         const int here = group.point(s, k), v = scene.mesh->vertex(atom->tag[here]);
         const int corner = static_cast<int>(std::find(face.begin(), face.end(), v) - face.begin());
@@ -235,13 +237,9 @@ void RegularizeTerm::measure_cross_ratios(const HelfrichScene &scene, const doub
 
 void RegularizeTerm::measure_dipoles(const HelfrichScene &scene, const double (*x)[3])
 {
-  sphere_of.assign(conformal.size(), -1);
   std::vector<Membrane_NS::PointDipole> mine(dipoles.size());
-  for (const FaceGroup &group : scene.groups) {
-    for (int s = 0; s < group.nfaces; ++s)
-      sphere_of[group.first_slot + s] = sphere[scene.totals.component_of(group, s)];
+  for (const FaceGroup &group : scene.groups)
     Membrane_NS::add_dipoles(group, x, scene.model.origin, conformal, sphere_of, mine);
-  }
   static_assert(sizeof(Membrane_NS::PointDipole) == 9 * sizeof(double), "sums are added up as an array");
   MPI_Allreduce(mine.data(), dipoles.data(), static_cast<int>(9 * mine.size()), MPI_DOUBLE, MPI_SUM, world);
 }
@@ -252,7 +250,7 @@ void RegularizeTerm::measure_dipoles(const HelfrichScene &scene, const double (*
 
 void RegularizeTerm::add_forces(HelfrichScene &scene, const double (*x)[3], double (*f)[3])
 {
-  if ((any_conformal || any_families) && !across_known) find_across(scene, x);
+  if ((any_conformal || any_families || !dipoles.empty()) && !across_known) find_across(scene, x);
   if (any_conformal || any_families) measure_cross_ratios(scene, x);
   if (!dipoles.empty()) measure_dipoles(scene, x);
   energy.assign(scene.energies.area.size(), 0.0);

@@ -252,27 +252,35 @@ void Membrane_NS::hold_dipoles(const FaceGroup &group, const double (*x)[3],
                                std::vector<double> &energy, std::vector<double> &virial)
 {
   constexpr double FOUR_PI = 4.0 * M_PI;
+  int c = -1;
+  Vector3d d, middle;
+  double stiffness = 0.0, part = 0.0, per_area = 0.0;
   for (int s = 0; s < group.nfaces; ++s) {
     const size_t slot = group.first_slot + s;
     if (component[slot] < 0) continue;
     const PointDipole &dipole = dipoles[component[slot]];
-    const Vector3d d = dipole.moment();
-    const double stiffness = DIPOLE * FOUR_PI / dipole.area * dipole.modulus / dipole.faces;
-    if (!energy.empty()) energy[slot] += stiffness * d.squaredNorm() / dipole.faces;
+    if (component[slot] != c) {
+      c = component[slot];
+      d = dipole.moment();
+      stiffness = DIPOLE * FOUR_PI / dipole.area * dipole.modulus / dipole.faces;
+      part = 1.0 / dipole.faces;
+      per_area = 1.0 / dipole.area;
+      middle = dipole.weighted * per_area;
+    }
+    if (!energy.empty()) energy[slot] += stiffness * d.squaredNorm() * part;
 
     const FaceCorners corners(group, s, x);
     const Vector3d *p = corners.place;
     const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
     const double area = 0.5 * normal.norm();
-    const Vector3d centre = (p[0] + p[1] + p[2]) / 3.0 - Map<const Vector3d>(&origin[3 * slot]) -
-        dipole.weighted / dipole.area;
+    const Vector3d centre = (p[0] + p[1] + p[2]) / 3.0 - Map<const Vector3d>(&origin[3 * slot]) - middle;
 
     // dE = stiffness (2 d.dd - d^2 dA/A): its corners move the face as a whole, and change its area
 
-    const Vector3d whole = -2.0 * stiffness * (1.0 / dipole.faces - area / dipole.area) * d;
-    const double tension = stiffness * (2.0 * d.dot(centre) + d.squaredNorm()) / dipole.area;
+    const Vector3d whole = -2.0 * stiffness * (part - area * per_area) * d;
+    const double tension = stiffness * (2.0 * d.dot(centre) + d.squaredNorm()) * per_area / (4.0 * area);
     double *v = of_slot(virial, slot);
-    corners.add({tension / (4.0 * area) * normal.cross(p[2] - p[1]), tension / (4.0 * area) * normal.cross(p[0] - p[2])}, f, v);
+    corners.add({tension * normal.cross(p[2] - p[1]), tension * normal.cross(p[0] - p[2])}, f, v);
     for (int k = 0; k < 3; ++k)
       for (int i = 0; i < 3; ++i) f[corners.point[k]][i] += whole[i] / 3.0;
     if (!v) continue;

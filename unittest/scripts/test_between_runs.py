@@ -78,7 +78,7 @@ for ranks in RANKS:
 
 TERMS = """
 pair_style      helfrich
-pair_coeff      1 1 10.0 0.0 area 30 init volume 20 init area/difference 5 init thickness 0.1 area/local 40
+pair_coeff      1 1 10.0 0.0 area 30 init volume 20 init area/difference 5 init thickness 0.1 area/local 40 regularize 2 conformal
 """
 SHEET_TERMS = """
 pair_style      helfrich
