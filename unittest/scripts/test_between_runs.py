@@ -122,6 +122,12 @@ for ranks in RANKS:
                 else:
                     claim("   ... and takes the present shape", found < E - 0.01, (found, E))
                 claim("   ... also in the run after", abs(found - again) <= 1e-12 * E, (found, again))
+    # where points gather is measured in one piece, whatever images they are in
+    rows = rows_of(START + "pair_style helfrich\npair_coeff 1 1 0 0 regularize 2 conformal\n" + OUTPUT.format("") + "run 0\n" + SHAKE +
+                   "run 0\ndisplace_atoms all move 3 3 3\nrun 0\ndisplace_atoms all move 7 -2 0\nrun 0\n", ranks=ranks)
+    E = rows[1]["PotEng"]
+    claim(f"regularize conformal on {ranks}: the same across the corner of the box",
+          all(abs(row["PotEng"] - E) < 1e-10 * E for row in rows[2:]) and len(rows) == 4, [row["PotEng"] for row in rows])
     rows = rows_of(TWO + TERMS + OUTPUT.format("") + "run 0\n" + SHAKE + "run 0\n" +
                    "group one molecule 1\ndelete_atoms group one\nreset_atoms id sort yes\nset group all mol 1\nrun 0\n" +
                    "replicate 1 1 2\nrun 0\n", ranks=ranks)
