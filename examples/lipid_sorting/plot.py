@@ -27,7 +27,7 @@ def points_of(path):
 
 points = points_of("points.dump")
 runs = list(frames("lipids.dump", "ITEM: ENTRIES"))
-bend = [2 * sum(points[int(i)][3] for i in row[:3]) / 3 for row in runs[0]]    # 2H of a face
+bend = [row[9] for row in runs[0]]    # 2H of a face
 order = sorted(range(len(bend)), key=lambda f: bend[f])
 place = {f: BINS * n // len(order) for n, f in enumerate(order)}
 middle = [sum(bend[f] for f in order if place[f] == b) / sum(place[f] == b for f in order) for b in range(BINS)]

@@ -36,7 +36,7 @@ using Membrane_NS::FaceGroup;
 using Membrane_NS::FaceLipids;
 
 static constexpr int NCOLUMNS = 4;
-static constexpr int CURVATURE = 2;
+static constexpr int CURVATURE = 2, BEND = 3;    // columns that are of no leaflet
 
 /* ---------------------------------------------------------------------- */
 
@@ -48,15 +48,15 @@ ComputeMembraneLipids::ComputeMembraneLipids(LAMMPS *lmp, int narg, char **arg) 
   int iarg = 3;
   while (iarg < narg) {
     const std::string key = arg[iarg];
-    if (key == "curvature") {
-      columns.push_back({CURVATURE, ""});
+    if (key == "curvature" || key == "bend") {
+      columns.push_back({key == "bend" ? BEND : CURVATURE, ""});
       ++iarg;
     } else if (key == "outer" || key == "inner") {
       if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "compute membrane/lipids " + key, error);
       columns.push_back({key == "inner", arg[iarg + 1]});
       iarg += 2;
     } else
-      error->all(FLERR, "Unknown compute membrane/lipids keyword {}; known are: outer, inner, curvature", key);
+      error->all(FLERR, "Unknown compute membrane/lipids keyword {}; known are: outer, inner, curvature, bend", key);
   }
   vector_flag = array_flag = 1;
   size_vector = 0;
@@ -145,17 +145,11 @@ void ComputeMembraneLipids::compute_vector()
   }
 }
 
-/* ----------------------------------------------------------------------
-   2H of a face is its mean over the face. The correlation is Pearson's of the fraction of a kind and 2H over
-   faces, weighted by their numbers of lipids
-------------------------------------------------------------------------- */
+// the mean of 2H over each face of all ranks
 
-void ComputeMembraneLipids::compute_array()
+std::vector<double> ComputeMembraneLipids::bends()
 {
-  invoked_array = update->ntimestep;
-  const FaceLipids &numbers = *places().lipids;
-  const int nfaces = numbers.num_faces(), nkinds = numbers.num_kinds();
-
+  const int nfaces = mesh->topology().num_faces();
   const auto groups = mesh->local_groups(rules);
   const int nslots = count_slots(groups);
   Membrane_NS::FaceModel model;
@@ -164,21 +158,33 @@ void ComputeMembraneLipids::compute_array()
   found.area.resize(nslots);
   found.curvature.resize(nslots);
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  std::vector<double> mine(nfaces, 0.0), curvature(nfaces);
+  std::vector<double> mine(nfaces, 0.0), bend(nfaces);
   for (const FaceGroup &group : groups) {
     face_integrals(group, x, model, found);
     for (int s = 0; s < group.nfaces; ++s)
       mine[group.face[s]] = found.curvature[group.first_slot + s] / found.area[group.first_slot + s];
   }
-  MPI_Allreduce(mine.data(), curvature.data(), nfaces, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(mine.data(), bend.data(), nfaces, MPI_DOUBLE, MPI_SUM, world);
+  return bend;
+}
 
+/* ----------------------------------------------------------------------
+   the correlation is Pearson's of the fraction of a kind and 2H over faces, weighted by their numbers of lipids
+------------------------------------------------------------------------- */
+
+void ComputeMembraneLipids::compute_array()
+{
+  invoked_array = update->ntimestep;
+  const FaceLipids &numbers = *places().lipids;
+  const int nfaces = numbers.num_faces(), nkinds = numbers.num_kinds();
+  const std::vector<double> bend = bends();
   const std::vector<char> inside = chosen();
   std::vector<int> n(nkinds);
   for (int l = 0; l < 2; ++l) {
     double all = 0.0, sum = 0.0, squares = 0.0;    // of lipids, and of 2H over them
     std::vector<double> of_kind(nkinds, 0.0), fractions(nkinds, 0.0), products(nkinds, 0.0);
     for (int f = 0; f < nfaces; ++f) {
-      const double size = numbers.size(l, f), H = curvature[f];
+      const double size = numbers.size(l, f), H = bend[f];
       if (!inside[f] || size == 0.0) continue;
       std::fill(n.begin(), n.end(), 0);
       numbers.count(l, f, n.data());
@@ -207,7 +213,7 @@ void ComputeMembraneLipids::compute_array()
    the faces of this rank in the order of compute property/local, which lists angles with their second atom
 ------------------------------------------------------------------------- */
 
-int ComputeMembraneLipids::list_faces(bool write)
+int ComputeMembraneLipids::list_faces(bool write, const std::vector<double> &bend)
 {
   const auto &topology = mesh->topology();
   const LipidPlaces &found = places();
@@ -233,6 +239,10 @@ int ComputeMembraneLipids::list_faces(bool write)
             value = 0.5 * (mesh->lipids().outer[face] - mesh->lipids().inner[face]);
             continue;
           }
+          if (columns[c].leaflet == BEND) {
+            value = bend[face];
+            continue;
+          }
           value = found.count(columns[c].leaflet, face, found.kind(columns[c].name));
         }
       }
@@ -247,15 +257,18 @@ void ComputeMembraneLipids::compute_local()
   invoked_local = update->ntimestep;
   const LipidPlaces &found = places();
   for (const Column &column : columns)
-    if (column.leaflet != CURVATURE && found.kind(column.name) < 0)
+    if (column.leaflet < CURVATURE && found.kind(column.name) < 0)
       error->all(FLERR, "Compute {} membrane/lipids: no membrane has the lipid {}", id, column.name);
-  size_local_rows = list_faces(false);
+  std::vector<double> bend;
+  for (const Column &column : columns)
+    if (column.leaflet == BEND && bend.empty()) bend = bends();
+  size_local_rows = list_faces(false, bend);
   if (size_local_rows > most_faces || !array_local) {
     most_faces = std::max(size_local_rows, 1);
     memory->destroy(array_local);
     memory->create(array_local, most_faces, size_local_cols, "membrane/lipids:array_local");
   }
-  list_faces(true);
+  list_faces(true, bend);
 }
 
 double ComputeMembraneLipids::memory_usage()

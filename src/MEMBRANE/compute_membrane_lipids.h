@@ -40,14 +40,14 @@ class ComputeMembraneLipids : public Compute {
   void compute_vector() override;
   /// The same in rows: number, fraction of the leaflet, mean 2H where they are, correlation with 2H.
   void compute_array() override;
-  /// By face, in the order of compute property/local: numbers of the kinds asked for.
+  /// By face, in the order of compute property/local: numbers of the kinds asked for, curvatures.
   void compute_local() override;
   int lock_length() override { return size_vector; }
   double memory_usage() override;
 
  private:
   struct Column {
-    int leaflet;    // 2 for the curvature
+    int leaflet;    // or CURVATURE or BEND of the source
     std::string name;
   };
   LocalMesh mesh;
@@ -58,7 +58,8 @@ class ComputeMembraneLipids : public Compute {
   const struct LipidPlaces &places();
   std::vector<char> chosen() const;
   void resize(int nkinds);
-  int list_faces(bool write);
+  std::vector<double> bends();
+  int list_faces(bool write, const std::vector<double> &bend);
 };
 
 }    // namespace LAMMPS_NS

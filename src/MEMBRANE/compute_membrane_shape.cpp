@@ -50,14 +50,15 @@ enum {
   SMALLEST_ANGLE,
   LARGEST_FOLD,
   CENTRE,
-  NCOLUMNS = CENTRE + 3
+  GYRATION = CENTRE + 3,
+  NCOLUMNS
 };
 
-// what the ranks add up and maximise for each membrane
+// what the ranks add up for each connected component, and maximise for each membrane
 
 namespace {
 struct Sums {
-  enum { MEAN, WILLMORE, MOMENT, WIDTH = MOMENT + 3 };
+  enum { MEAN, WILLMORE, INERTIA, MOMENT, WIDTH = MOMENT + 3 };
 };
 struct Extremes {
   enum { SHORTEST, LONGEST, ANGLE, FOLD, WIDTH };
@@ -226,15 +227,17 @@ void ComputeMembraneShape::measure()
   for (const FaceGroup &group : groups) curvature_integrals(group, x, model, curvature);
 
   const size_t n = mesh->molecules().size();
-  std::vector<double> my_sums(n * Sums::WIDTH, 0.0), all_sums(my_sums.size());
+  const int ncomponents = mesh->topology().num_components();
+  std::vector<double> my_sums((size_t) ncomponents * Sums::WIDTH, 0.0), all_sums(my_sums.size());
   std::vector<double> my_extremes(n * Extremes::WIDTH, -HUGE_VAL), all_extremes(my_extremes.size());
   for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nfaces; ++s) {
       const int slot = group.first_slot + s;
-      const int m = mesh->membrane(totals.component_of(group, s));
-      double *sums = &my_sums[(size_t) m * Sums::WIDTH];
+      const int component = totals.component_of(group, s), m = mesh->membrane(component);
+      double *sums = &my_sums[(size_t) component * Sums::WIDTH];
       sums[Sums::MEAN] += curvature.mean[slot];
       sums[Sums::WILLMORE] += curvature.willmore[slot];
+      sums[Sums::INERTIA] += curvature.inertia[slot];
       for (int k = 0; k < 3; ++k) sums[Sums::MOMENT + k] += curvature.moment[3 * (size_t) slot + k];
       measure_quality(group, s, &my_extremes[(size_t) m * Extremes::WIDTH]);
     }
@@ -242,35 +245,58 @@ void ComputeMembraneShape::measure()
   MPI_Allreduce(my_extremes.data(), all_extremes.data(), my_extremes.size(), MPI_DOUBLE, MPI_MAX,
                 world);
 
-  // moments are about the centres of components
-
-  std::vector<int> euler(n, 0);
-  for (int c = 0; c < mesh->topology().num_components(); ++c) {
-    const auto &part = totals.components()[c];
-    const int m = mesh->membrane(c);
-    euler[m] += mesh->topology().euler_characteristic(c);
-    for (int k = 0; k < 3; ++k)
-      all_sums[(size_t) m * Sums::WIDTH + Sums::MOMENT + k] += part.area * part.centre[k];
-  }
-
   for (int i = 0; i < size_array_rows; ++i) {
     const int m = members[i];
     const auto &membrane = totals.membranes()[m];
-    const double *sums = &all_sums[(size_t) m * Sums::WIDTH];
     const double *extremes = &all_extremes[(size_t) m * Extremes::WIDTH];
     double *row = array[i];
     row[AREA] = membrane.area;
     row[VOLUME] = mesh->is_closed_membrane(m) ? membrane.volume : 0.0;
     row[REDUCED_VOLUME] = row[VOLUME] * 6.0 * std::sqrt(MY_PI) / std::pow(row[AREA], 1.5);
-    row[MEAN_CURVATURE] = sums[Sums::MEAN];
-    row[WILLMORE] = sums[Sums::WILLMORE];
-    row[EULER] = euler[m];
     row[SHORTEST_EDGE] = -extremes[Extremes::SHORTEST];
     row[LONGEST_EDGE] = extremes[Extremes::LONGEST];
     row[SMALLEST_ANGLE] = -extremes[Extremes::ANGLE];
     row[LARGEST_FOLD] = extremes[Extremes::FOLD];
-    for (int k = 0; k < 3; ++k) row[CENTRE + k] = sums[Sums::MOMENT + k] / row[AREA];
   }
+  combine_components(all_sums);
+}
+
+/* ----------------------------------------------------------------------
+   columns that are sums over the components of a membrane, whose moments are about their own centres.
+   The second moment is shifted to the centre of the area, and not to the box's origin, where it
+   would lose digits: sum (r - C)^2 = sum (r - o)^2 + 2 (o - C).sum (r - o) + A (o - C)^2
+------------------------------------------------------------------------- */
+
+void ComputeMembraneShape::combine_components(const std::vector<double> &all_sums)
+{
+  const auto &topology = mesh->topology();
+  std::vector<double *> row_of(mesh->molecules().size(), nullptr);
+  for (int i = 0; i < size_array_rows; ++i) {
+    row_of[members[i]] = array[i];
+    for (int k : {MEAN_CURVATURE, WILLMORE, EULER, GYRATION}) array[i][k] = 0.0;
+    std::fill_n(array[i] + CENTRE, 3, 0.0);
+  }
+  auto each_component = [&](auto &&add) {
+    for (int c = 0; c < topology.num_components(); ++c)
+      if (double *row = row_of[mesh->membrane(c)])
+        add(c, totals.components()[c], &all_sums[(size_t) c * Sums::WIDTH], row);
+  };
+  each_component([&](int c, const MeshTotals::Total &part, const double *sums, double *row) {
+    row[MEAN_CURVATURE] += sums[Sums::MEAN];
+    row[WILLMORE] += sums[Sums::WILLMORE];
+    row[EULER] += topology.euler_characteristic(c);
+    for (int k = 0; k < 3; ++k)
+      row[CENTRE + k] += (sums[Sums::MOMENT + k] + part.area * part.centre[k]) / row[AREA];
+  });
+  each_component([](int, const MeshTotals::Total &part, const double *sums, double *row) {
+    double shift[3];
+    MathExtra::sub3(part.centre, row + CENTRE, shift);
+    row[GYRATION] += (sums[Sums::INERTIA] + 2.0 * MathExtra::dot3(shift, sums + Sums::MOMENT) +
+                      part.area * MathExtra::lensq3(shift)) / row[AREA];
+  });
+  for (int i = 0; i < size_array_rows; ++i)
+    array[i][GYRATION] =
+        mesh->is_closed_membrane(members[i]) ? std::sqrt(array[i][GYRATION]) : 0.0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -283,7 +309,7 @@ void ComputeMembraneShape::compute_array()
 
 /* ----------------------------------------------------------------------
    all membranes together: sums, worst elements, mean reduced volume of those that have a volume,
-   centre of the whole area
+   centre and radius of gyration of the whole area
 ------------------------------------------------------------------------- */
 
 void ComputeMembraneShape::compute_vector()
@@ -300,12 +326,20 @@ void ComputeMembraneShape::compute_vector()
     for (int k : {SHORTEST_EDGE, SMALLEST_ANGLE})
       vector[k] = i == 0 ? row[k] : std::min(vector[k], row[k]);
     for (int k : {LONGEST_EDGE, LARGEST_FOLD}) vector[k] = std::max(vector[k], row[k]);
-    for (int k = CENTRE; k < NCOLUMNS; ++k) vector[k] += row[AREA] * row[k];
+    for (int k = CENTRE; k < CENTRE + 3; ++k) vector[k] += row[AREA] * row[k];
     nclosed += mesh->is_closed_membrane(members[i]);
   }
   if (nclosed) vector[REDUCED_VOLUME] /= nclosed;
-  if (size_array_rows)
-    for (int k = CENTRE; k < NCOLUMNS; ++k) vector[k] /= vector[AREA];
+  if (size_array_rows == 0) return;
+  for (int k = CENTRE; k < CENTRE + 3; ++k) vector[k] /= vector[AREA];
+  if (nclosed < size_array_rows) return;
+  double inertia = 0.0;
+  for (int i = 0; i < size_array_rows; ++i) {
+    double shift[3];
+    MathExtra::sub3(array[i] + CENTRE, vector + CENTRE, shift);
+    inertia += array[i][AREA] * (array[i][GYRATION] * array[i][GYRATION] + MathExtra::lensq3(shift));
+  }
+  vector[GYRATION] = std::sqrt(inertia / vector[AREA]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -316,6 +350,6 @@ double ComputeMembraneShape::memory_usage()
   for (const FaceGroup &group : groups)
     bytes += sizeof(int) * (group.points.capacity() + group.face.capacity());
   bytes += sizeof(int) * beyond.capacity();
-  bytes += sizeof(double) * 18.0 * count_slots(groups);
+  bytes += sizeof(double) * 19.0 * count_slots(groups);
   return bytes + rules.memory_usage();
 }

@@ -56,6 +56,7 @@ class ComputeMembraneShape : public Compute {
   void choose_membranes();
   void localize();
   void measure();
+  void combine_components(const std::vector<double> &);
   void measure_quality(const Membrane_NS::FaceGroup &, int, double *) const;
 };
 

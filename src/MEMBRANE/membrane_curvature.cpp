@@ -57,6 +57,7 @@ void CurvatureIntegrals::resize(int nslots)
   mean.resize(nslots);
   willmore.resize(nslots);
   moment.resize(3 * static_cast<size_t>(nslots));
+  inertia.resize(nslots);
 }
 
 void Membrane_NS::curvature_integrals(const FaceGroup &group, const double (*x)[3],
@@ -70,7 +71,7 @@ void Membrane_NS::curvature_integrals(const FaceGroup &group, const double (*x)[
     for (int k = 0; k < rule.size; ++k)
       control.col(k) << Eigen::Map<const Vector3d>(x[group.point(s, k)]) - origin, 0.0;
 
-    double mean = 0.0, willmore = 0.0;
+    double mean = 0.0, willmore = 0.0, inertia = 0.0;
     Vector3d moment = Vector3d::Zero();
     for (int q = 0; q < rule.npoints; ++q) {
       LimitValues values;
@@ -86,9 +87,11 @@ void Membrane_NS::curvature_integrals(const FaceGroup &group, const double (*x)[
       mean += area * H;
       willmore += 2.0 * area * H * H;
       moment += area * point.position;
+      inertia += area * point.position.squaredNorm();
     }
     out.mean[slot] = mean;
     out.willmore[slot] = willmore;
+    out.inertia[slot] = inertia;
     for (int k = 0; k < 3; ++k) out.moment[3 * static_cast<size_t>(slot) + k] = moment[k];
   }
 }

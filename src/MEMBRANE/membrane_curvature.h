@@ -41,6 +41,7 @@ struct CurvatureIntegrals {
   std::vector<double> mean;        ///< [slots] H dA
   std::vector<double> willmore;    ///< [slots] 1/2 (2H)^2 dA
   std::vector<double> moment;      ///< [slots][3] (r - origin) dA, origin from the model
+  std::vector<double> inertia;     ///< [slots] (r - origin)^2 dA
   void resize(int nslots);
 };
 

@@ -77,28 +77,30 @@ std::vector<int> largest_remainders(const std::vector<double> &weights, int sum)
 std::vector<int> fill_faces(const std::vector<double> &wanted, int nkinds)
 {
   const size_t nfaces = wanted.size() / nkinds;
-  std::vector<double> by_kind(nkinds, 0.0), by_face(nfaces, 0.0);
-  for (size_t f = 0; f < nfaces; ++f)
-    for (int k = 0; k < nkinds; ++k) {
-      by_kind[k] += wanted[f * nkinds + k];
-      by_face[f] += wanted[f * nkinds + k];
-    }
-  const int sum = static_cast<int>(std::lround(std::accumulate(by_kind.begin(), by_kind.end(), 0.0)));
-  std::vector<int> left = largest_remainders(by_kind, sum);
-  const std::vector<int> totals = largest_remainders(by_face, sum);
+  std::vector<double> by_kind(nkinds, 0.0);
+  for (size_t i = 0; i < wanted.size(); ++i) by_kind[i % nkinds] += wanted[i];
+  const double all = std::accumulate(by_kind.begin(), by_kind.end(), 0.0);
+  int undealt = static_cast<int>(std::lround(all));
+  std::vector<int> left = largest_remainders(by_kind, undealt);
 
   std::vector<int> numbers(wanted.size(), 0);
   std::vector<double> behind(nkinds, 0.0);
-  for (size_t f = 0; f < nfaces; ++f)
-    for (int i = 0; i < totals[f]; ++i) {
-      for (int k = 0; k < nkinds; ++k) behind[k] += wanted[f * nkinds + k] / totals[f];
+  double asked = 0.0;
+  for (size_t f = 0; f < nfaces; ++f) {
+    for (int k = 0; k < nkinds; ++k) {
+      behind[k] += wanted[f * nkinds + k];
+      asked += wanted[f * nkinds + k];
+    }
+    for (const int after = static_cast<int>(std::lround(all - asked)); undealt > after; --undealt) {
       int next = -1;
-      for (int k = 0; k < nkinds; ++k)
-        if (left[k] > 0 && (next < 0 || behind[k] > behind[next])) next = k;
+      for (const bool asked_here : {true, false})    // others only where those are used up
+        for (int k = 0; k < nkinds && (asked_here || next < 0); ++k)
+          if ((wanted[f * nkinds + k] > 0.0) == asked_here && left[k] > 0 && (next < 0 || behind[k] > behind[next])) next = k;
       --left[next];
       behind[next] -= 1.0;
       ++numbers[f * nkinds + next];
     }
+  }
   return numbers;
 }
 

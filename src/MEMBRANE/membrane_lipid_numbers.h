@@ -56,9 +56,11 @@ class FaceLipids {
 std::vector<int> largest_remainders(const std::vector<double> &weights, int sum);
 
 /** Fills one leaflet of a membrane. Each face asks for lipids by its area and its composition:
-    wanted[face][kind], [faces][kinds], not whole. The numbers of all kinds, over the membrane, and those of all
-    faces are the nearest whole ones with the same sum, by largest remainders. Lipids are then dealt out face
-    after face, always of the kind that is farthest behind what was asked for. Returns numbers, [faces][kinds]. */
+    wanted[face][kind], [faces][kinds], not whole. The numbers of all kinds, over the membrane, are the nearest
+    whole ones with the same sum, by largest remainders. Lipids are dealt out face after face: as many as keep their
+    sum within a half of what the faces so far have asked for, so that any run of faces is within one of its share
+    (largest remainders of faces that all ask for 0.7 would leave the last three tenths of them empty); and always of
+    the kind that is farthest behind among those that the face asks for. Returns numbers, [faces][kinds]. */
 std::vector<int> fill_faces(const std::vector<double> &wanted, int nkinds);
 
 }    // namespace Membrane_NS

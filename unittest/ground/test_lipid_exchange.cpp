@@ -68,6 +68,26 @@ TEST(LipidNumbers, FillingKeepsNumbersOfKindsOverTheMembraneAndOfFaces)
     }
 }
 
+TEST(LipidNumbers, FillingFollowsPlacesAlsoWhereAFaceAsksForLessThanALipid)
+{
+  for (double per_face : {0.3, 0.7, 1.0, 2.5}) {
+    std::vector<double> wanted;    // 500 faces of one mixture, then 500 of another, a fifth smaller
+    for (int f = 0; f < 1000; ++f)
+      for (double part : {f < 500 ? 0.25 : 0.0, f < 500 ? 0.75 : 1.0}) wanted.push_back(part * per_face * (f < 500 ? 1.0 : 0.8));
+    const std::vector<int> numbers = fill_faces(wanted, 2);
+    for (int first = 0; first < 1000; first += 100)
+      for (int k = 0; k < 2; ++k) {
+        double asked = 0.0;
+        int got = 0;
+        for (int f = first; f < first + 100; ++f) {
+          asked += wanted[2 * f + k];
+          got += numbers[2 * f + k];
+        }
+        EXPECT_NEAR(got, asked, 2.0) << per_face << " lipids a face, kind " << k << ", faces from " << first;
+      }
+  }
+}
+
 // === A small system that can be enumerated: faces in a row
 
 FaceLipids in_order(int nkinds, const std::array<std::vector<int>, 2> &totals, const std::vector<uint8_t> &outer,

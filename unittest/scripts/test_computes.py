@@ -8,7 +8,7 @@ from lammps_claims import REFERENCE, claim, error_of, finish, run, thermo
 from membrane_scenes import SCENES, TETRAHEDRON, bipyramid, largest, read_dump, write_off
 
 COLUMNS = ("area", "volume", "v", "mean", "willmore", "euler", "shortest", "longest", "angle",
-           "fold", "x", "y", "z")
+           "fold", "x", "y", "z", "gyration")
 H, K, POSITION, NORMAL = 0, 1, slice(2, 5), slice(5, 8)    # columns of the per-atom compute
 PI = math.pi
 
@@ -16,7 +16,7 @@ PI = math.pi
 def script(commands, box="block -3 3 -3 3 -3 3", before="", compute="", rows=0, after="run 0"):
     """One run that prints the global vector as c_s[*] and, for `rows` membranes, the array; and
     dumps id, x, y, z, and all per-atom values."""
-    array = "".join(f" c_s[{i}][{j}]" for i in range(1, rows + 1) for j in range(1, 14))
+    array = "".join(f" c_s[{i}][{j}]" for i in range(1, rows + 1) for j in range(1, len(COLUMNS) + 1))
     return f"""
 units           lj
 atom_style      membrane_cp
@@ -124,10 +124,11 @@ for name, (area, volume, willmore, c0, spontaneous, euler) in EXACT.items():
 # === Torus, R = 1.5, r = 0.5: integrals and curvatures converge
 
 R, r = 1.5, 0.5
-errors = {key: [] for key in ("area", "volume", "mean", "willmore", "H", "K", "normal")}
+errors = {key: [] for key in ("area", "volume", "mean", "willmore", "gyration", "H", "K", "normal")}
 for nu, nv in ((24, 16), (48, 32), (96, 64)):
     got = shape(f"create_membrane 1 torus {nu} {nv} {R} {r} interpolate yes", compute="quadrature 12")
     exact = {"area": 4 * PI**2 * R * r, "volume": 2 * PI**2 * R * r * r, "mean": 2 * PI**2 * R,
+             "gyration": math.sqrt(R * R + 2 * r * r),
              "willmore": 2 * PI**2 * (R / r)**2 / math.sqrt((R / r)**2 - 1)}
     for key, value in exact.items():
         errors[key].append(got[key] / value - 1)
@@ -145,8 +146,8 @@ for nu, nv in ((24, 16), (48, 32), (96, 64)):
         errors[key].append(value)
     claim(f"torus {nu}x{nv}: limit positions are the interpolated points", on < 1e-11, off(on))
     claim(f"torus {nu}x{nv}: Euler characteristic 0", got["euler"] == 0)
-for key, least in (("area", 3.7), ("volume", 3.7), ("mean", 3.7), ("willmore", 3.7), ("H", 1.8),
-                   ("K", 1.8), ("normal", 3.7)):
+for key, least in (("area", 3.7), ("volume", 3.7), ("mean", 3.7), ("willmore", 3.7), ("gyration", 3.7),
+                   ("H", 1.8), ("K", 1.8), ("normal", 3.7)):
     values = errors[key]
     measured = f"{' '.join(map(off, values))}, order {order(values[-2:]):.2f}"
     claim(f"torus: {key} converges with order {least} or better", order(values[-2:]) > least, measured)
@@ -162,6 +163,7 @@ close("sphere: volume", got["volume"], 4 * PI / 3 * 1.3**3, 1e-4)
 close("sphere: integral of H", got["mean"], 4 * PI * 1.3, 1e-3)
 close("sphere: Willmore energy", got["willmore"], 8 * PI * 1.005338, 1e-6)
 close("sphere: reduced volume", got["v"], 1.0, 1e-4)
+close("sphere: radius of gyration", got["gyration"], 1.3, 1e-4)
 claim("sphere: centre", norm(subtract((got["x"], got["y"], got["z"]), (0.1, -0.2, 0.3))) < 1e-13)
 run(script("""
 create_membrane 1 sphere 2 1.0
@@ -250,7 +252,7 @@ got = shape("create_membrane 1 plane 12 14", box="block -3 3 -2.5 2.5 -1 2", ran
 close("plane: area is that of the box", got["area"], 30, 1e-14)
 claim("plane: no volume, reduced volume or curvature",
       got["volume"] == 0 and got["v"] == 0 and largest((got["mean"], got["willmore"])) < 1e-12)
-claim("plane: Euler characteristic 0", got["euler"] == 0)
+claim("plane: Euler characteristic 0, no radius of gyration", got["euler"] == 0 and got["gyration"] == 0)
 close("plane: height of the centre", got["z"], 0.5, 1e-13)
 x, values = atoms()
 worst = max(largest(subtract(values[i][POSITION], x[i])) for i in x)
@@ -277,6 +279,8 @@ for box in ("block -2 2 -2 2 -2 2", "prism -2 2 -2 2 -2 2 0.7 -0.5 0.9"):
         worst = max(abs(corner[key] - middle[key]) for key in COLUMNS[:10])
         claim(f"{name}, {ranks} ranks: a sphere across the corner is one in the middle", worst < 1e-11,
               off(worst))
+        worst = abs(corner["gyration"] / middle["gyration"] - 1)
+        claim(f"{name}, {ranks} ranks: so is its radius of gyration", worst < 1e-13, off(worst))
         worst = norm(subtract((corner["x"], corner["y"], corner["z"]), (2, 2, 2)))
         claim(f"{name}, {ranks} ranks: its centre is where it was put", worst < 1e-13, off(worst))
         x, there = atoms()
@@ -340,8 +344,20 @@ claim("several membranes: and the worst quality",
       total["longest"] == max(row["longest"] for row in rows) and
       total["angle"] == min(row["angle"] for row in rows) and
       total["fold"] == max(row["fold"] for row in rows))
-centre = sum(row["area"] * row["x"] for row in rows) / total["area"]
-claim("several membranes: and the centre of all area", abs(total["x"] - centre) < 1e-13, total["x"])
+centre = [sum(row["area"] * row[k] for row in rows) / total["area"] for k in "xyz"]
+claim("several membranes: and the centre of all area", abs(total["x"] - centre[0]) < 1e-13, total["x"])
+
+
+def about(centre, parts):
+    """Radius of gyration of parts together, about a centre."""
+    inertia = sum(part["area"] * (part["gyration"]**2 + sum((part[k] - centre[i])**2 for i, k in enumerate("xyz")))
+                  for part in parts)
+    return math.sqrt(inertia / sum(part["area"] for part in parts))
+
+
+close("several membranes: and its radius of gyration", total["gyration"], about(centre, alone), 1e-13)
+close("several membranes: two surfaces of one molecule have one radius of gyration", rows[2]["gyration"],
+      about([rows[2][k] for k in "xyz"], alone[2:]), 1e-13)
 
 GROUPED = """
 compute         t {0} membrane/shape
@@ -438,7 +454,7 @@ for name in ("three membranes, one sharing a type", "valence 3", "valence 12", "
     reference = state(1, "newton on")
     for layout, how in LAYOUTS.items():
         rows, values = state(*how)
-        skip = 10 if not scene.closed else 14    # the centre of a periodic membrane has no place in x, y
+        skip = 10 if not scene.closed else 15    # the centre of a periodic membrane has no place in x, y
         worst = largest((a - b) / max(1, abs(a)) for row, other in zip(reference[0], rows)
                         for a, b in zip(row[:skip], other[:skip]))
         claim(f"{name}, {layout}: the shape is that of 1 rank", worst < 1e-12, off(worst))

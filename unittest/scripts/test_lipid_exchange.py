@@ -51,7 +51,23 @@ def same_places(row, other, times=1.0):
         abs(a - times * b) < 1e-11 * (1.0 + abs(a)) for a, b in zip(places(row), places(other)))
 
 
-# === Numbers
+# === Numbers and curvatures of faces
+
+for ranks in RANKS:
+    row = thermo(run(start().replace("random 0.02 0.02 0.02", "move 0 0 0").replace(" 4711\npair_style", "\npair_style") + """
+unfix           i
+compute         b all membrane/lipids bend outer A
+compute         m all reduce ave c_b[1] inputs local
+compute         o all reduce sum c_b[2] inputs local
+compute         area all membrane/shape
+thermo_style    custom step c_m c_o c_n[1] c_area[4] c_area[1]
+thermo_modify   norm no format float %.17g
+run             0
+""", ranks=ranks))[-1]
+    exact = 2.0 * row["c_area[4]"] / row["c_area[1]"]
+    claim(f"{ranks} rank(s): the mean of bend over equal faces is that of 2H over the surface", abs(row["c_m"] / exact - 1.0) < 2e-3,
+          f"{row['c_m']} {exact}")
+    claim("    and columns are in the order in which they are asked for", row["c_o"] == row["c_n[1]"], row["c_o"])
 
 first = {}
 for ranks in RANKS:

@@ -148,6 +148,38 @@ for name, part in (("outer", molecules[:outer]), ("inner", molecules[outer:])):
     number, wanted = numbers_of(output, name)
     claim("    as many as the area asks for", abs(number - wanted) < 0.51, (number, wanted))
 claim("    at most 3 % of lipids in a clash", clashing(output) < 0.03, clashing(output))
+
+# === A flat membrane that is no multiple of the patch: beads by height as in the patch
+
+def profile(lipids, middle):
+    """By kind of bead, numbered alike in all lipids, and slab of 2 A: beads a lipid, and the variance of that."""
+    counts = {}
+    for lipid in lipids:
+        for bead, x in enumerate(lipid):
+            place = (bead, math.floor((x[2] - middle) / 2))
+            counts[place] = counts.get(place, 0) + 1
+    number = len(lipids)
+    return {place: (n / number, n * (1 - n / number) / number**2) for place, n in counts.items()}
+
+
+output = run(script("plane 20 24", "-90 90 -90 90 -60 60", FROM_PATCH + "out plain"))
+molecules, _ = read_data("plain.data")
+claim("a plane that is no multiple of the patch", "copies of it" not in output and clashing(output) < 0.03, clashing(output))
+outer = numbers_of(output, "outer")[0]
+for name, mine, theirs in (("outer", molecules[:outer], [lipid for lipid in patch if lipid[1][2] > middle]),
+                           ("inner", molecules[outer:], [lipid for lipid in patch if lipid[1][2] < middle])):
+    built, of_patch = profile(mine, 0.0), profile(theirs, middle)
+    chi, terms = 0.0, 0
+    for place in set(built) | set(of_patch):
+        (p, dp), (q, dq) = built.get(place, (0.0, 0.0)), of_patch.get(place, (0.0, 0.0))
+        if len(theirs) * (p + q) > 10:    # too few to have an error
+            chi += (p - q)**2 / (dp + dq)
+            terms += 1
+    claim(f"    {name} leaflet: beads of each kind by height as in the patch, within errors", chi < terms + 4 * math.sqrt(2 * terms),
+          f"chi^2 {chi:.1f} of {terms}")
+    height, theirs_too = (sum(lipid[1][2] - z for lipid in part) / len(part) for part, z in ((mine, 0.0), (theirs, middle)))
+    claim("    heads within 1.5 A of their height", abs(height - theirs_too) < 1.5, (height, theirs_too))
+
 if LONG:
     for shape, limit in (("sphere 4 100 interpolate yes", 0.03), ("torus 48 32 120 60 interpolate yes", 0.05),
                          ("torus 48 32 100 50 interpolate yes", 0.05), ("plane 24 28", 0.03)):
@@ -361,7 +393,7 @@ for how, more in (("pair_coeff", ""), ("fix hd/lipids", "fix x all hd/lipids 1 3
     output = run(script(SPHERE, BOX, "patch mixed.pdb composition from/lipids format pdb out kinds", LIPIDS + more))
     lipids = kinds_of("kinds.pdb")
     claim(f"composition from/lipids, of {how}", f"lipids are those of {how}" in output)
-    for leaflet, kind, part in ((0, "LIPB", 0.75), (1, "LIPA", 0.75)) if how == "pair_coeff" else ():
+    for leaflet, kind, part in ((0, "LIPB", 0.75), (1, "LIPA", 0.75)):
         here = [(k, z) for l, k, z in lipids if l == leaflet]
         top, bottom = [k for k, z in here if z > 12], [k for k, z in here if z < -12]
         claim(f"    leaflet {leaflet}: one kind on the half that has one, and a mixture on the other",

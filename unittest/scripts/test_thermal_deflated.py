@@ -1,6 +1,6 @@
 """A vesicle of reduced volume 0.65 at kc = 20 kT, where shapes go from oblate to prolate: mass sampling gives the averages and
-fluctuations that mass lumped does. The integral of H tells these shapes apart; the radius of gyration of control points
-would also tell how they are spread over the surface, which is slow and no property of a membrane.
+fluctuations that mass lumped does. The integral of H and the radius of gyration of the surface tell these shapes apart;
+that of control points would also tell how they are spread over the surface, which is slow and no property of a membrane.
 
     MEMBRANE_LONG=1    twenty times the steps
 """
@@ -13,7 +13,7 @@ from lammps_claims import LONG, claim, finish, run
 from mode_statistics import mean_and_error
 
 BLOCKS = 20
-NAMES = ("integral of H", "area", "volume", "reduced volume", "bending energy")
+NAMES = ("integral of H", "radius of gyration", "area", "volume", "reduced volume", "bending energy")
 
 
 def vesicle(fix, dt, steps, every, equilibrate):
@@ -36,7 +36,7 @@ timestep        {dt}
 thermo          1000000
 run             {equilibrate}
 reset_timestep  0
-fix             a all ave/time {every} 1 {every} c_s[4] c_s[1] c_s[2] c_s[3] c_e[1] file series.txt format " %.12g"
+fix             a all ave/time {every} 1 {every} c_s[4] c_s[14] c_s[1] c_s[2] c_s[3] c_e[1] file series.txt format " %.12g"
 run             {steps}
 """, timeout=7200)
     rows = [list(map(float, line.split()))[1:] for line in open("series.txt") if not line.startswith("#")]
