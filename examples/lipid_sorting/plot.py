@@ -2,8 +2,8 @@
 """Where the lipids of in.sorting are, beside theory: a table by curvature, sorting.txt. Where there is matplotlib also pictures,
 sorting.png and, after in.domains, domains.png.
 
-A lipid of spontaneous curvature c and area a has the energy -kc/2 a c (2H - C/2) on a face of curvature 2H whose lipids make it like C:
-the outer leaflet's part, seen from its heads; in the inner one 2H and C change sign. So the numbers of CONE and PLUG on faces
+A lipid of spontaneous curvature c and area a has the energy -kc/2 a c (2H - C/2) on a face of curvature 2H whose other lipids make
+it like C: the outer leaflet's part, seen from its heads; in the inner one 2H and C change sign. So the numbers of CONE and PLUG on faces
 of one curvature have the ratio exp(kc a c (2H - C/2)), and a constant factor; a bin of faces has the ratio of their means."""
 
 import math
@@ -51,7 +51,10 @@ def ratios(part):
         measured = [math.log(s[first] / s[first + 2]) for s in sums]
         theory = []
         for b, c in enumerate(liking):
-            weights = [math.exp(sign * KC / 2 * AREA * CURVATURE * (bend[f] - (c[0] - c[1]) / 2)) for f in order if place[f] == b]
+            bends = [bend[f] for f in order if place[f] == b]
+            lipids = sum(sums[b][first:first + 3]) / len(bends) / len(part)    # of a face; each feels the others
+            seen = (1 - 1 / lipids) * c[first > 0] - c[first == 0]
+            weights = [math.exp(KC / 2 * AREA * CURVATURE * (sign * H - seen / 2)) for H in bends]
             theory.append(math.log(sum(weights) / sum(1 / w for w in weights)))
         for row in (measured, theory):
             mean = sum(row) / BINS
