@@ -83,9 +83,9 @@ void Membrane_NS::curvature_integrals(const FaceGroup &group, const double (*x)[
       }
       const LimitPoint point = limit_point(values);
       const Vector3d ru = values.row(LimitBasis::DU), rv = values.row(LimitBasis::DV);
-      const double area = rule.weight[q] * ru.cross(rv).norm(), H = point.mean_curvature;
-      mean += area * H;
-      willmore += 2.0 * area * H * H;
+      const double J = ru.cross(rv).norm(), H = point.mean_curvature, area = rule.area_weight[q] * J;
+      mean += rule.weight[q] * J * H;
+      willmore += 2.0 * rule.weight[q] * J * H * H;
       moment += area * point.position;
       inertia += area * point.position.squaredNorm();
     }

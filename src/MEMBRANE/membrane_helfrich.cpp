@@ -30,8 +30,8 @@ static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of
 
 namespace {
 
-// control points of a regular face, and of faces with one corner of valence 5 or 7
-constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13;
+// control points of a regular face, of faces with one corner of valence 5 or 7, and with two
+constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13, TWO_FIVES = 10, TWO_SEVENS = 14;
 
 // fetch the control points of a block, relative to its first ones
 inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out)
@@ -64,16 +64,16 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
   const Lane c0 = CURVATURE ? load(model.c0, slot) : Lane{};
   BlockIntegrals sum{};    // not `out`: sums stay in registers
   for (int q = 0; q < rule.npoints; ++q) {
-    const double weight = rule.weight[q];
+    const double weight = rule.weight[q], area_weight = rule.area_weight[q];
     const Lane3 ru = combine(rule.row(q, LimitBasis::DU), x, size);
     const Lane3 rv = combine(rule.row(q, LimitBasis::DV), x, size);
     const Lane3 a = cross(ru, rv);
     const Lane J = sqrt(dot(a, a));
-    sum.area += weight * J;
+    sum.area += area_weight * J;
     if (VOLUME) {
       const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), x, size) - origin;
-      sum.volume += (weight / 3.0) * dot(r, a);
-      sum.vector_area += weight * a;
+      sum.volume += (area_weight / 3.0) * dot(r, a);
+      sum.vector_area += area_weight * a;
     }
     if (CURVATURE) {
       const Lane uu = dot(combine(rule.row(q, LimitBasis::DUU), x, size), a);
@@ -187,7 +187,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
   for (int k = 0; k < size; ++k) g[k] = Lane3{};
 
   for (int q = 0; q < rule.npoints; ++q) {
-    const double weight = rule.weight[q];
+    const double weight = rule.weight[q], area_weight = rule.area_weight[q];
     const double *w = rule.row(q, 0);
     const double *wu = w + LimitBasis::DU * size, *wv = w + LimitBasis::DV * size;
     const double *wuu = w + LimitBasis::DUU * size, *wuv = w + LimitBasis::DUV * size;
@@ -214,7 +214,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     const Lane E = dot(ru, ru), F = dot(ru, rv), G = dot(rv, rv);
     const Lane3 B = G * ruu - 2.0 * F * ruv + E * rvv;
     const Lane curvature = -dot(B, a) * inverse * inverse * inverse;    // 2H
-    area += weight * J;
+    area += area_weight * J;
 
     Lane L, M, N, gaussian, kg_here = kg;    // gaussian: K J
     if (GAUSS) {
@@ -229,14 +229,15 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
       bent += weight * e.bend * J;
       bending += weight * e.value * J;
       moment = weight * e.by_curvature * inverse;
-      e_W = (0.5 * weight) * (e.value - K * e.by_gaussian + tension) * inverse - 1.5 * curvature * moment;
+      e_W = (0.5 * weight) * (e.value - K * e.by_gaussian) * inverse - 1.5 * curvature * moment;
       kg_here += e.by_gaussian;
     } else {
       const Lane excess = curvature - c0;
       bending += (0.5 * weight) * kc * excess * excess * J;
       moment = weight * kc * excess * inverse;
-      e_W = moment * (0.25 * excess - 1.5 * curvature) + (0.5 * weight) * tension * inverse;
+      e_W = moment * (0.25 * excess - 1.5 * curvature);
     }
+    e_W += (0.5 * area_weight) * tension * inverse;
     Lane e_s = -moment * inverse;
     if (MOMENT) {
       e_s -= weight * bend * inverse * inverse;
@@ -260,7 +261,7 @@ void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, 
     ga += 2.0 * e_W * a;
     Lane3 gr;
     if (VOLUME) {
-      const Lane third = (weight / 3.0) * pressure;
+      const Lane third = (area_weight / 3.0) * pressure;
       ga += third * (r - origin);
       gr = third * a;
     }
@@ -288,6 +289,8 @@ template <class Choose> auto with_size(int size, const Choose &choose)
     case REGULAR: return choose(std::integral_constant<int, REGULAR>());
     case FIVE: return choose(std::integral_constant<int, FIVE>());
     case SEVEN: return choose(std::integral_constant<int, SEVEN>());
+    case TWO_FIVES: return choose(std::integral_constant<int, TWO_FIVES>());
+    case TWO_SEVENS: return choose(std::integral_constant<int, TWO_SEVENS>());
     default: return choose(std::integral_constant<int, 0>());
   }
 }

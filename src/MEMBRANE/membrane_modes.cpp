@@ -100,7 +100,7 @@ void SurfacePoints::take(const std::vector<FaceGroup> &groups, const double (*x)
         const Lane3 u = combine(rule.row(q, LimitBasis::DU), p.data(), rule.size);
         const Lane3 v = combine(rule.row(q, LimitBasis::DV), p.data(), rule.size);
         r.push_back(combine(rule.row(q, LimitBasis::VALUE), p.data(), rule.size));
-        area.push_back((rule.weight[q] * counted) * cross(u, v));
+        area.push_back((rule.area_weight[q] * counted) * cross(u, v));
       }
     }
   }

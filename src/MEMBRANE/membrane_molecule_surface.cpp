@@ -62,10 +62,10 @@ ParallelSurfaces::ParallelSurfaces(const LimitSurface &surface, std::vector<int>
           values.row(row) += rule.row(q, row)[k] * control[k].head<3>().matrix().transpose();
       const LimitPoint point = limit_point(values);
       const Vector3d du = values.row(LimitBasis::DU), dv = values.row(LimitBasis::DV);
-      const double area = rule.weight[q] * du.cross(dv).norm();
-      sum[0] += area;
-      sum[1] += 2.0 * point.mean_curvature * area;
-      sum[2] += point.gaussian_curvature * area;
+      const double J = du.cross(dv).norm(), curved = rule.weight[q] * J;
+      sum[0] += rule.area_weight[q] * J;
+      sum[1] += 2.0 * point.mean_curvature * curved;
+      sum[2] += point.gaussian_curvature * curved;
     }
     for (int q = 0; q < inside.size(); ++q) {
       const SurfaceJet jet = surface.evaluate<2>(SurfacePoint{f, inside.u[q], inside.v[q]});

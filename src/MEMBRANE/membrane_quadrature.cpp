@@ -17,6 +17,9 @@
 
 #include "membrane_quadrature.h"
 
+#include "membrane_quadrature_corners.h"
+
+#include <algorithm>
 #include <cmath>
 
 using namespace Membrane_NS;
@@ -144,12 +147,29 @@ TriangleRule Membrane_NS::triangle_rule(Quadrature quadrature)
 
 namespace {
 
-void append(PatchRule &rule, double weight, const Weights &w)
+void append(PatchRule &rule, double weight, double area_weight, const Weights &w)
 {
   rule.size = static_cast<int>(w.cols());
   rule.npoints++;
   rule.weight.push_back(weight);
+  rule.area_weight.push_back(area_weight);
   rule.rows.insert(rule.rows.end(), w.data(), w.data() + w.size());
+}
+
+// the points of another rule of the same patch
+void append(PatchRule &rule, const PatchRule &more)
+{
+  for (int q = 0; q < more.npoints; ++q)
+    append(rule, more.weight[q], more.area_weight[q],
+           Eigen::Map<const Weights>(more.row(q, 0), LimitBasis::ROWS, more.size));
+}
+
+PatchRule regular_patch(const TriangleRule &triangle)
+{
+  PatchRule rule;
+  for (int q = 0; q < triangle.size(); ++q)
+    append(rule, triangle.weight[q], triangle.weight[q], box_spline(triangle.u[q], triangle.v[q]));
+  return rule;
 }
 
 // express the points of a child's rule in its parent's control points; derivative rows are kept
@@ -161,7 +181,7 @@ void append_child(PatchRule &rule, const PatchRule &child, const MatrixXd &matri
     Weights w = Eigen::Map<const Weights>(child.row(q, 0), LimitBasis::ROWS, child.size) * matrix;
     for (int row = LimitBasis::DU; row <= LimitBasis::DVV; ++row)
       w.row(row) -= w.row(row).sum() * mask;
-    append(rule, child.weight[q], w);
+    append(rule, child.weight[q], child.area_weight[q], w);
   }
 }
 
@@ -174,7 +194,28 @@ void rescale(PatchRule &rule, double factor)
     w.middleRows(LimitBasis::DU, 2) /= factor;
     w.middleRows(LimitBasis::DUU, 3) /= factor * factor;
     rule.weight[q] *= factor * factor;
+    rule.area_weight[q] *= factor * factor;
   }
+}
+
+// the patch (n, 6, 6) by points fitted to its corner, mirror images included; without points if there are none
+PatchRule fitted_patch(int n, int npoints)
+{
+  PatchRule rule;
+  const LimitBasis basis({n, 6, 6});
+  auto add = [&](double u, double v, const CornerPoint &point) {
+    // derivatives in parameters as large as the part that subdivision finds the point in
+    const double size = std::pow(0.5, std::max(0.0, std::floor(-std::log2(u + v))));
+    Weights w = basis.evaluate(u, v);
+    w.middleRows(LimitBasis::DU, 2) *= size;
+    w.middleRows(LimitBasis::DUU, 3) *= size * size;
+    append(rule, point.weight / (size * size), point.area_weight / (size * size), w);
+  };
+  for (const CornerPoint &point : corner_points(n, npoints)) {
+    add(point.u, point.v, point);
+    if (point.u != point.v) add(point.v, point.u, point);
+  }
+  return rule;
 }
 
 }    // namespace
@@ -193,6 +234,29 @@ static Quadrature cheaper_rule(Quadrature quadrature)
   }
 }
 
+// a face with one extraordinary corner; the quarter at such a corner of a face that has more of them; what is left of a
+// graded rule after some cuts
+
+enum class CornerPatch { FACE, PART, TIP };
+
+constexpr int MOST_FITTED = 8, MOST_FITTED_TIP = 12;    // valences
+constexpr int LEVELS_TO_FITTED_TIP = 2;
+
+// how many points of a fitted rule it takes; 0: it has none. A quarter is narrower and needs fewer; around valence 8
+// curvature varies more than around less. Valence 3 is rare; with 12 and 16 points forces with leaflets missed their differences by 8e-7
+
+static int points_on(CornerPatch patch, int valence, Quadrature quadrature)
+{
+  const bool six = quadrature == Quadrature::SIX;
+  if (!six && quadrature != Quadrature::THREE) return 0;
+  if (valence == 3 || valence > MOST_FITTED_TIP) return 0;
+  if (valence > MOST_FITTED) return patch != CornerPatch::TIP ? 0 : valence == 11 ? 15 : 16;
+  if (patch == CornerPatch::TIP) return 0;
+  const bool whole = six && patch == CornerPatch::FACE;
+  if (valence == 8) return whole ? 18 : six ? 16 : 12;
+  return !whole ? 10 : valence == 7 ? 15 : 16;
+}
+
 PatchRules::PatchRules(Quadrature quadrature) :
     quadrature_(quadrature), triangle_(triangle_rule(quadrature))
 {
@@ -205,38 +269,60 @@ const PatchRule &PatchRules::get(const Valences &valences)
   return found->second;
 }
 
+/* ----------------------------------------------------------------------
+   rows of a matrix that gives the control points of a patch whose extraordinary corner is in slot k, in
+   the order of one where it is in slot 0
+------------------------------------------------------------------------- */
+
+static MatrixXd turned(const MatrixXd &matrix, int n, int k)
+{
+  const int next = (k + 1) % 3, prev = (k + 2) % 3;
+  const int length[3] = {k == 0 ? n - 3 : 3, k == 1 ? n - 3 : 3, k == 2 ? n - 3 : 3};
+  const int start[3] = {3, 3 + length[0], 3 + length[0] + length[1]};
+  MatrixXd rows(matrix.rows(), matrix.cols());
+  int row = 0;
+  for (int c : {k, next, prev}) rows.row(row++) = matrix.row(c);
+  for (int c : {k, next, prev})
+    for (int i = 0; i < length[c]; ++i) rows.row(row++) = matrix.row(start[c] + i);
+  return rows;
+}
+
 PatchRule PatchRules::build(const Valences &valences)
 {
-  PatchRule rule;
   const LimitBasis basis(valences);
-  if (basis.is_regular()) {
-    for (int q = 0; q < triangle_.size(); ++q)
-      append(rule, triangle_.weight[q], box_spline(triangle_.u[q], triangle_.v[q]));
+  if (basis.is_regular()) return regular_patch(triangle_);
+
+  PatchRule rule;
+  int corners = 0, k = 0;    // k: the last of them
+  for (int i = 0; i < 3; ++i)
+    if (valences[i] != 6) ++corners, k = i;
+  const PatchRule face = corners == 1 ? fitted_patch(valences[k], points_on(CornerPatch::FACE, valences[k], quadrature_))
+                                      : PatchRule();
+  if (face.npoints > 0) {
+    const MatrixXd same = MatrixXd::Identity(basis.size(), basis.size());
+    append_child(rule, face, turned(same, valences[k], k), basis.corner_mask(k));
     return rule;
   }
 
-  const PatchRule &regular = get({6, 6, 6});
+  const PatchRule regular = regular_patch(triangle_);
   for (int child = 0; child < 4; ++child) {
-    MatrixXd matrix = basis.child_matrix(child);
+    const MatrixXd matrix = basis.child_matrix(child);
     const RowVectorXd mask = basis.corner_mask(child % 3);
-    if (child == 3 || valences[child] == 6) {
+    if (child == 3 || valences[child] == 6)
       append_child(rule, regular, matrix, mask);
-      continue;
-    }
-
-    // the tip's rule has its extraordinary vertex in slot 0: turn the child's rows to match
-
-    const int n = valences[child], k = child, next = (k + 1) % 3, prev = (k + 2) % 3;
-    const int list_length[3] = {k == 0 ? n - 3 : 3, k == 1 ? n - 3 : 3, k == 2 ? n - 3 : 3};
-    const int list_start[3] = {3, 3 + list_length[0], 3 + list_length[0] + list_length[1]};
-    MatrixXd turned(matrix.rows(), matrix.cols());
-    int row = 0;
-    for (int c : {k, next, prev}) turned.row(row++) = matrix.row(c);
-    for (int c : {k, next, prev})
-      for (int i = 0; i < list_length[c]; ++i) turned.row(row++) = matrix.row(list_start[c] + i);
-    append_child(rule, graded(n), turned, mask);
+    else
+      append_child(rule, tip(valences[child]), turned(matrix, valences[child], child), mask);
   }
   return rule;
+}
+
+const PatchRule &PatchRules::tip(int n)
+{
+  auto found = tips_.find(n);
+  if (found != tips_.end()) return found->second;
+  PatchRule rule = fitted_patch(n, points_on(CornerPatch::PART, n, quadrature_));
+  if (rule.npoints == 0) rule = graded(n);
+  return tips_[n] = std::move(rule);
 }
 
 /* ----------------------------------------------------------------------
@@ -244,28 +330,26 @@ PatchRule PatchRules::build(const Valences &valences)
    level has the same layout, with control points A times those of this level.
 ------------------------------------------------------------------------- */
 
-const PatchRule &PatchRules::graded(int n)
+PatchRule PatchRules::graded(int n) const
 {
-  auto found = tips_.find(n);
-  if (found != tips_.end()) return found->second;
-
-  const double tolerance = quadrature_ == Quadrature::CAREFUL ? 1.0e-11 : 1.0e-4;
-  const int levels = static_cast<int>(std::ceil(std::log(tolerance) / std::log(energy_decay(n))));
-
   const LimitBasis basis({n, 6, 6});
   const MatrixXd to_next = basis.child_matrix(0);
   const RowVectorXd mask = basis.corner_mask(0);
   const double shrink = subdominant_eigenvalue(n);
 
-  PatchRule level = regular_children(basis, quadrature_), tip, rule;
+  PatchRule level = regular_children(basis, quadrature_), rule;
   const Quadrature cheaper = cheaper_rule(quadrature_);
-  for (int q = 0; q < triangle_.size(); ++q)
-    append(tip, triangle_.weight[q], basis.evaluate(triangle_.u[q], triangle_.v[q]));
+  PatchRule tip = fitted_patch(n, points_on(CornerPatch::TIP, n, quadrature_));
+  int levels = LEVELS_TO_FITTED_TIP;
+  if (tip.npoints == 0) {
+    const double tolerance = quadrature_ == Quadrature::CAREFUL ? 1.0e-11 : 1.0e-4;
+    levels = static_cast<int>(std::ceil(std::log(tolerance) / std::log(energy_decay(n))));
+    for (int q = 0; q < triangle_.size(); ++q)
+      append(tip, triangle_.weight[q], triangle_.weight[q], basis.evaluate(triangle_.u[q], triangle_.v[q]));
+  }
 
   for (int depth = 1; depth < levels; ++depth) {
-    for (int q = 0; q < level.npoints; ++q)
-      append(rule, level.weight[q],
-             Eigen::Map<const Weights>(level.row(q, 0), LimitBasis::ROWS, level.size));
+    append(rule, level);
     if (depth == 1) level = regular_children(basis, cheaper);
     for (PatchRule *part : {&level, &tip}) {
       PatchRule next;
@@ -274,20 +358,16 @@ const PatchRule &PatchRules::graded(int n)
       *part = std::move(next);
     }
   }
-  for (int q = 0; q < tip.npoints; ++q)
-    append(rule, tip.weight[q],
-           Eigen::Map<const Weights>(tip.row(q, 0), LimitBasis::ROWS, tip.size));
-  return tips_[n] = std::move(rule);
+  append(rule, tip);
+  return rule;
 }
 
 // of the patch (n, 6, 6)
 
 PatchRule PatchRules::regular_children(const LimitBasis &basis, Quadrature quadrature) const
 {
-  const TriangleRule triangle = triangle_rule(quadrature);
-  PatchRule regular, rule;
-  for (int q = 0; q < triangle.size(); ++q)
-    append(regular, triangle.weight[q], box_spline(triangle.u[q], triangle.v[q]));
+  const PatchRule regular = regular_patch(triangle_rule(quadrature));
+  PatchRule rule;
   for (int child = 1; child < 4; ++child)
     append_child(rule, regular, basis.child_matrix(child), basis.corner_mask(0));
   return rule;

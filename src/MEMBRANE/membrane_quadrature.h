@@ -40,15 +40,16 @@ struct TriangleRule {
 };
 TriangleRule triangle_rule(Quadrature quadrature);
 
-/** The quadrature of a face with given valences, as data: for each point its weight and the rows
+/** The quadrature of a face with given valences, as data: for each point its weights and the rows
     of LimitBasis::Row. Derivatives are with respect to parameters chosen for each point such that
     they stay of the order of an edge; an integral is sum_points weight f(r, r_u, ...) for any f
-    that is a density in the parameters, like |r_u x r_v|. */
+    that is a density in the parameters, like |r_u x r_v|. What depends on curvature takes `weight`, and
+    what does not, like area and volume, `area_weight`: they differ in fitted rules only. */
 struct PatchRule {
   int size = 0;      ///< control points of the face
   int npoints = 0;
-  std::vector<double> weight;    ///< [npoints]
-  std::vector<double> rows;      ///< [npoints][LimitBasis::ROWS][size]
+  std::vector<double> weight, area_weight;    ///< [npoints]
+  std::vector<double> rows;                   ///< [npoints][LimitBasis::ROWS][size]
   const double *row(int point, int which) const
   {
     return rows.data() + (static_cast<size_t>(point) * LimitBasis::ROWS + which) * size;
@@ -57,7 +58,11 @@ struct PatchRule {
 
 /** Builds patch rules on demand and keeps them; references stay valid.
 
-    Around an extraordinary corner the rule is graded and self-similar: the face is cut in four, the
+    Around extraordinary corners of the valences that meshes have in number THREE and SIX take few points that were
+    fitted to the corner, see membrane_quadrature_corners.h: on the whole face if it has one such corner, else the
+    face is cut in four, and they go on the parts at its corners.
+
+    Other rules and corners are graded (up to valence 12 as far as a fitted tip) and self-similar: the face is cut in four, the
     part at the corner again, and so on, each regular part getting the triangle rule, or from the
     third cut on, which leaves parts an eighth as wide as the face, the next cheaper one (SIX and TWELVE).
     The last, the tip, is integrated too: a rule that leaves it out lets a minimiser hide energy there. The
@@ -77,7 +82,8 @@ class PatchRules {
   std::map<int, PatchRule> tips_;    // by valence: the patch (n, 6, 6)
 
   PatchRule build(const Valences &valences);
-  const PatchRule &graded(int n);
+  const PatchRule &tip(int n);
+  PatchRule graded(int n) const;
   PatchRule regular_children(const LimitBasis &basis, Quadrature quadrature) const;
 };
 

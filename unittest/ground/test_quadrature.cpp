@@ -13,6 +13,7 @@
 
 #include "membrane_quadrature.h"
 
+#include "membrane_quadrature_corners.h"
 #include "scene.h"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,9 @@ using Planar = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 using Weights = LimitBasis::Weights;
 
 namespace {
+
+// the valences with rules of few points
+constexpr int FITTED[] = {4, 5, 7, 8, 9, 10, 11, 12};
 
 // integral of u^a v^b over the triangle
 double monomial(int a, int b)
@@ -62,8 +66,8 @@ Flat by_rule(const PatchRule &rule, const Planar &points)
     const Eigen::Matrix<double, LimitBasis::ROWS, 2> r = w * points;
     const double density =
         r(LimitBasis::DU, 0) * r(LimitBasis::DV, 1) - r(LimitBasis::DU, 1) * r(LimitBasis::DV, 0);
-    sum.area += rule.weight[q] * density;
-    sum.moment += rule.weight[q] * density * r(LimitBasis::VALUE, 0);
+    sum.area += rule.area_weight[q] * density;
+    sum.moment += rule.area_weight[q] * density * r(LimitBasis::VALUE, 0);
   }
   return sum;
 }
@@ -302,7 +306,7 @@ TEST(PatchRules, MorePointsAreMoreAccurate)
 
 TEST(PatchRules, CountOfPointsFollowsFromTheValence)
 {
-  // parts of a face with one extraordinary corner: 3, then 3 a level, then the tip; from the third cut on
+  // parts of a graded face with one extraordinary corner: 3, then 3 a level, then the tip; from the third cut on
   // the 3 take the next cheaper rule
   const std::map<int, int> parts = {{3, 22}, {5, 19}, {8, 37}, {16, 151}};
   constexpr int WIDE = 3 + 3 + 1;
@@ -311,14 +315,38 @@ TEST(PatchRules, CountOfPointsFollowsFromTheValence)
                                                    {Quadrature::SIX, Quadrature::THREE},
                                                    {Quadrature::TWELVE, Quadrature::SIX}};
   for (const auto &[n, count] : parts)
-    for (const auto &[wide_rule, narrow_rule] : narrow)
+    for (const auto &[wide_rule, narrow_rule] : narrow) {
+      const bool fitted = n != 3 && n <= 12 && (wide_rule == Quadrature::THREE || wide_rule == Quadrature::SIX);
+      if (fitted) continue;
       EXPECT_EQ(shared_rules(wide_rule).get({n, 6, 6}).npoints,
                 WIDE * triangle_rule(wide_rule).size() +
                     (count - WIDE) * triangle_rule(narrow_rule).size())
           << "valence " << n;
+    }
 
   const PatchRules fresh(Quadrature::SIX);
   EXPECT_EQ(fresh.quadrature(), Quadrature::SIX);
+}
+
+TEST(PatchRules, FittedPointsAreFew)
+{
+  struct Number {
+    int whole, quarter, quarter_of_three;
+  };
+  const std::map<int, Number> numbers = {{4, {16, 10, 10}}, {5, {16, 10, 10}}, {7, {15, 10, 10}},
+                                         {8, {18, 16, 12}}};
+  PatchRules &three = shared_rules(Quadrature::THREE), &six = shared_rules(Quadrature::SIX);
+  for (const auto &[n, number] : numbers) {
+    EXPECT_EQ(three.get({n, 6, 6}).npoints, number.quarter_of_three) << n;
+    EXPECT_EQ(six.get({6, n, 6}).npoints, number.whole) << n;
+    EXPECT_EQ(six.get({n, 5, 6}).npoints, 2 * 6 + number.quarter + 10) << n;
+    EXPECT_EQ(six.get({n, 5, n}).npoints, 6 + 2 * number.quarter + 10) << n;
+    EXPECT_EQ(six.get({n, 9, 6}).npoints, six.get({9, 6, 6}).npoints - 6 + number.quarter) << n;
+  }
+  for (int n = 9; n <= 12; ++n) {    // three parts, three more, and the tip
+    EXPECT_EQ(six.get({n, 6, 6}).npoints, 18 + 18 + (n == 11 ? 15 : 16)) << n;
+    EXPECT_EQ(three.get({n, 6, 6}).npoints, 9 + 9 + (n == 11 ? 15 : 16)) << n;
+  }
 }
 
 TEST(PatchRules, AreBuiltOnceAndStayWhereTheyAre)
@@ -333,4 +361,74 @@ TEST(PatchRules, AreBuiltOnceAndStayWhereTheyAre)
   EXPECT_EQ(first.rows.data(), data);
   EXPECT_EQ(first.npoints, npoints);
   EXPECT_GE(rules.memory_usage(), sizeof(double) * first.rows.size());
+}
+
+// === Fitted
+
+TEST(CornerPoints, AreInsideWithPositiveWeights)
+{
+  for (int n : FITTED)
+    for (int count = 10; count <= 20; ++count) {
+      int points = 0;
+      for (const CornerPoint &p : corner_points(n, count)) {
+        points += p.u == p.v ? 1 : 2;
+        EXPECT_GE(p.u, p.v);
+        EXPECT_GT(std::min(p.v, 1.0 - p.u - p.v), 0.0) << n << ", " << count;
+        EXPECT_GT(std::min(p.weight, p.area_weight), 0.0) << n << ", " << count;
+      }
+      EXPECT_TRUE(points == 0 || points == count) << n << ", " << count;
+    }
+  EXPECT_TRUE(corner_points(6, 12).empty());
+  EXPECT_TRUE(corner_points(5, 6).empty());
+}
+
+// the same face, whichever of its corners comes first
+TEST(PatchRules, FittedPointsTurnWithTheFace)
+{
+  for (Quadrature quadrature : {Quadrature::THREE, Quadrature::SIX})
+    for (const Valences &n : {Valences{5, 6, 6}, {6, 8, 6}, {7, 4, 6}, {3, 5, 8}, {9, 5, 6}}) {
+      const Planar points = random_points(LimitBasis(n).size(), 7);
+      Planar turned = points;
+      turned << points.row(1), points.row(2), points.row(0), points.bottomRows(points.rows() - n[0]),
+          points.middleRows(3, n[0] - 3);
+      const Flat here = by_rule(shared_rules(quadrature).get(n), points);
+      const Flat there = by_rule(shared_rules(quadrature).get({n[1], n[2], n[0]}), turned);
+      EXPECT_NEAR(here.area, there.area, 1e-13) << text(n);
+      EXPECT_NEAR(here.moment, there.moment, 1e-13) << text(n);
+    }
+}
+
+TEST(PatchRules, FittedPointsSeeTheEnergyOfSmoothSurfaces)
+{
+  for (int n : FITTED) {
+    TriangleMesh mesh = bipyramid(n);
+    for (int level = 0; level < 2; ++level) mesh = loop_refine(mesh);
+    const double exact = Scene(mesh, Quadrature::CAREFUL).evaluate().bending;
+    for (const auto &[quadrature, limit] : {std::pair(Quadrature::THREE, 1e-3), std::pair(Quadrature::SIX, 1e-4)}) {
+      const double error = Scene(mesh, quadrature).evaluate().bending / exact - 1.0;
+      EXPECT_LT(std::fabs(error), limit) << "valence " << n << ", " << name(quadrature);
+      RecordProperty("valence_" + std::to_string(n) + "_" + name(quadrature), scientific(error));
+    }
+  }
+}
+
+// a vesicle as others simulate it
+TEST(PatchRules, MeshesOfRandomValencesTakeFewPoints)
+{
+  const TriangleMesh mesh = test_mesh("thermal_1800");
+  Scene scene(mesh, Quadrature::SIX), careful(mesh, Quadrature::CAREFUL);
+  double points = 0.0;
+  for (const FaceGroup &group : scene.groups()) points += group.rule->npoints * static_cast<double>(group.nfaces) / mesh.faces.size();
+  EXPECT_LT(points, 24.0);
+  const Totals by_rule = scene.evaluate(), exact = careful.evaluate();
+  EXPECT_LT(std::fabs(by_rule.bending / exact.bending - 1.0), 1e-3);
+  double apart = 0.0, whole = 0.0;
+  for (size_t v = 0; v < mesh.points.size(); ++v) {
+    apart += (by_rule.force[v] - exact.force[v]).squaredNorm();
+    whole += exact.force[v].squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(apart / whole), 1e-2);
+  RecordProperty("points_a_face", std::to_string(points));
+  RecordProperty("bending", scientific(by_rule.bending / exact.bending - 1.0));
+  RecordProperty("forces", scientific(std::sqrt(apart / whole)));
 }
