@@ -97,4 +97,11 @@ known = [f"{name}: {header}" for name in sorted(files) for header in includes[na
                            files[name], re.I)]
 claim("no header of a style is included but by its own parts and by a style that is derived from it", not known, known)
 
+# === Tests
+
+scripts = {os.path.basename(path): read(path) for path in glob.glob(os.path.join(TOP, "unittest", "scripts", "test_*.py"))}
+unlabelled = [name for name, text in sorted(scripts.items())
+              if re.search(r"^from lammps_claims import .*\bLONG\b", text, re.M) and "MEMBRANE_LONG" not in text]
+claim("each test with a long form says so with MEMBRANE_LONG, for ./quickstart test long to find it", not unlabelled, unlabelled)
+
 finish()

@@ -1,5 +1,9 @@
-"""fix hd/lipids: whole lipids on faces, their exchange, and what commands between two runs do to them."""
+"""fix hd/lipids: whole lipids on faces, their exchange, and what commands between two runs do to them.
+
+    MEMBRANE_LONG=1    also numbers of lipids over 1e7 moves
+"""
 # cost: 18
+# timeout: 7200
 
 import re
 import struct

@@ -1,6 +1,10 @@
 """Modes in place of control points: equilibrium at kc = 20 kT. Each mode has its share of energy, whatever the integrator,
-and small undulations have the powers of theory."""
+and small undulations have the powers of theory.
+
+    MEMBRANE_LONG=1    twenty times the steps
+"""
 # cost: 25
+# timeout: 7200
 
 import math
 

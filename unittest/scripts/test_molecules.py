@@ -1,6 +1,10 @@
 """membrane_build: lipids of a patch on membranes, whole and as many as the area asks for; its files read back by others; odd
-PDB files and bad input."""
+PDB files and bad input.
+
+    MEMBRANE_LONG=1    more shapes, from a patch that ran for longer
+"""
 # cost: 45
+# timeout: 7200
 
 import glob
 import json
