@@ -4,8 +4,9 @@ LAMMPS' Lennard-Jones benchmark, both timed in this run.
 
   bench/run_bench.py [--lmp build/lmp] [--repeat 5] [--levels 3,4,5,6,7] [--ranks 2] [--out bench]
 
-A sphere of 10*4^level + 2 control points. In each round the benchmark is run before the cases of a level; the
-tables have the median over the rounds and, in brackets, the smallest and the largest. Writes
+A sphere of 10*4^level + 2 control points; where its size is nearest to that of a thermal mesh with vertices of
+valence 3 to 12, that mesh, too; with 10,242 points also ten lipids a face that trade places. In each round the
+benchmark is run before the cases of a level; the tables have the median over the rounds and, in brackets, the smallest and the largest. Writes
 OUT.csv and, with python3-matplotlib, OUT.png."""
 
 import argparse
@@ -22,6 +23,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 FAST = {"quadrature": "3"}
 DEFAULT = {"quadrature": "6"}
+THERMAL = {"read": "yes", "mesh": os.path.join(HERE, "..", "unittest", "meshes", "thermal_1800.off")}
+THERMAL_POINTS = 1800
+# ten lipids a face and leaflet at 10,242 points; runs have two sweeps of their exchange
+LIPIDS_LEVEL, LIPIDS_STEPS = 5, 200
+LIPIDS = {"terms": "lipids NULL outer A 50 B 50 inner A 50 B 50 library A 6.1e-5 0.5 library B 6.1e-5 -0.5"}
 TOTALS = {"terms": "area 100 init volume 100 init"}
 
 
@@ -38,6 +44,15 @@ CASES = {
     "hd/nve, 6 points": ({**DEFAULT, **fix("hd/nve")}, "Loop"),
     "hd/nve mass lumped, 3 points": ({**FAST, **fix("hd/nve mass lumped")}, "Loop"),
     "hd/langevin, 3 points": ({**FAST, **fix("hd/langevin 1.0 1.0 1.0 4711 measure no")}, "Loop"),
+}
+THERMAL_CASES = {
+    "force, 3 points, thermal mesh": ({**FAST, **THERMAL}, "Pair"),
+    "force, 6 points, thermal mesh": ({**DEFAULT, **THERMAL}, "Pair"),
+}
+LIPID_CASES = {
+    "hd/nve, 6 points, composition": ({**DEFAULT, **LIPIDS, **fix("hd/nve")}, "Loop"),
+    "hd/nve, 6 points, a sweep of lipids every 100 steps":
+        ({**DEFAULT, **LIPIDS, **fix("hd/nve"), "exchange": "yes"}, "Loop"),
 }
 # M^-1 f: what the fix takes with the mass matrix, less what it takes with a diagonal one
 SOLVE = "M^-1 f, tol 1e-10"
@@ -119,18 +134,28 @@ def seconds(output, line):
     return float(total) / int(loop[2]) / int(loop[3])
 
 
+def cases_of(level):
+    """{name: (input variables, line of LAMMPS' timing, steps)}"""
+    points = 10 * 4**level + 2
+    result = {name: (*case, max(10, 1500000 // points)) for name, case in CASES.items()}
+    if points / 2 < THERMAL_POINTS < points * 2:
+        result.update({name: (*case, 1500000 // THERMAL_POINTS) for name, case in THERMAL_CASES.items()})
+    if level == LIPIDS_LEVEL:
+        result.update({name: (*case, LIPIDS_STEPS) for name, case in LIPID_CASES.items()})
+    return result
+
+
 def one_round(lmp, level, ranks):
     """{case: LJ units}, {"unit": seconds}, and the speed-ups on several ranks."""
     unit = seconds(lammps(lmp, "in.lj", {})[0], "Loop")
     result = {"unit": unit}
-    steps = str(max(10, 1500000 // (10 * 4**level + 2)))
     modify = {}
-    for name, (variables, line) in CASES.items():
-        output = lammps(lmp, "in.membrane", {**variables, "level": str(level), "steps": steps})[0]
+    for name, (variables, line, steps) in cases_of(level).items():
+        output = lammps(lmp, "in.membrane", {**variables, "level": str(level), "steps": str(steps)})[0]
         result[name] = seconds(output, line) / unit
         modify[name] = seconds(output, "Modify") / unit
         if ranks > 1 and name in SCALING:
-            shared = lammps(lmp, "in.membrane", {**variables, "level": str(level), "steps": steps}, ranks)[0]
+            shared = lammps(lmp, "in.membrane", {**variables, "level": str(level), "steps": str(steps)}, ranks)[0]
             result[f"{name}: speed-up on {ranks} ranks"] = seconds(output, "Loop") / seconds(shared, "Loop")
     result[SOLVE] = modify["hd/nve, 3 points"] - modify["hd/nve mass lumped, 3 points"]
     result[MASK] = 0.5 * result[SOLVE]
