@@ -77,10 +77,11 @@ Move::Move(const LimitSurface &surface, const SurfacePoint &from, const Vector2d
     topology_(surface.topology()), from_(from)
 {
   step_ = no_longer(step, LONGEST_STEP);
+  const auto is_short = [&](double nearness) { return step_.lpNorm<Eigen::Infinity>() < NEAR_VERTEX * (1.0 - nearness); };
+  const auto nearness = from.barycentric();    // 1 at a corner
+  if (is_short(std::max({nearness[0], nearness[1], nearness[2]}))) return;
   const int corner = fan_corner(topology_, from);
-  if (corner < 0) return;
-  const double to_corner = 1.0 - from.barycentric()[corner];
-  if (step_.lpNorm<Eigen::Infinity>() < NEAR_VERTEX * to_corner) return;
+  if (corner < 0 || is_short(nearness[corner])) return;
   try_fan(fan_point(topology_, from, corner), step);
 }
 
@@ -109,6 +110,7 @@ void Move::try_fan(const FanPoint &fan, const Vector2d &step)
 
 class Descent {
  public:
+  /// Of periodic images, begins at the one whose offset from x is nearest to `near`.
   Descent(const LimitSurface &surface, const Vector3d &x, const SurfacePoint &start,
           const Vector3d &near, ClosestPoint &result) :
       surface_(surface),
@@ -262,11 +264,8 @@ double tolerance_for(const LimitSurface &surface, const Vector3d &x, double want
 ClosestPoint Membrane_NS::closest_point(const LimitSurface &surface, const Vector3d &x,
                                         const SurfacePoint &start, double tolerance)
 {
-  const Vector3d near = surface.is_periodic()
-      ? surface.nearest_image(surface.evaluate<0>(start).position() - x)
-      : Vector3d(Vector3d::Zero());
   ClosestPoint closest;
-  Descent(surface, x, start, near, closest).run(tolerance_for(surface, x, tolerance));
+  Descent(surface, x, start, Vector3d::Zero(), closest).run(tolerance_for(surface, x, tolerance));
   return closest;
 }
 
