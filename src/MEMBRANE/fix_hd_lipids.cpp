@@ -257,28 +257,6 @@ void FixHDLipids::follow()
     }
 }
 
-// dA of a face with the weights of what depends on curvature, which are those of c0^2 dA in the energy
-
-static double curved_area(const FaceGroup &group, int s, const double (*x)[3])
-{
-  using Membrane_NS::LimitBasis;
-  const Membrane_NS::PatchRule &rule = *group.rule;
-  const double *origin = x[group.point(s, 0)];
-  double area = 0.0;
-  for (int q = 0; q < rule.npoints; ++q) {
-    double u[3] = {0.0, 0.0, 0.0}, v[3] = {0.0, 0.0, 0.0}, normal[3];
-    for (int k = 0; k < rule.size; ++k)
-      for (int i = 0; i < 3; ++i) {
-        const double place = x[group.point(s, k)][i] - origin[i];
-        u[i] += rule.row(q, LimitBasis::DU)[k] * place;
-        v[i] += rule.row(q, LimitBasis::DV)[k] * place;
-      }
-    MathExtra::cross3(u, v, normal);
-    area += rule.weight[q] * MathExtra::len3(normal);
-  }
-  return area;
-}
-
 /* ----------------------------------------------------------------------
    integrals over faces, from the ranks that have them. That of the Gaussian curvature, which areas and
    curvatures of neutral surfaces need, is the energy of a surface with no other modulus
@@ -293,6 +271,7 @@ void FixHDLipids::measure()
   Membrane_NS::FaceIntegrals found;
   found.area.resize(nslots);
   found.curvature.resize(nslots);
+  found.curved_area.resize(nslots);
   for (const FaceGroup &group : groups) face_integrals(group, x, bare, found);
   Membrane_NS::FaceEnergies gauss;
   if (std::any_of(distance.begin(), distance.end(), [](double d) { return d > 0.0; })) {
@@ -310,7 +289,7 @@ void FixHDLipids::measure()
   for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nfaces; ++s) {
       const int slot = group.first_slot + s;
-      const double D = distance[slot], area = curved_area(group, s, x), curvature = found.curvature[slot];
+      const double D = distance[slot], area = found.curved_area[slot], curvature = found.curvature[slot];
       const double K = gauss.gauss.empty() ? 0.0 : gauss.gauss[slot];
       FaceShape shape;
       shape.face = group.face[s];

@@ -50,7 +50,7 @@ inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out
 ------------------------------------------------------------------------- */
 
 struct BlockIntegrals {
-  Lane area, volume, curvature, bending;
+  Lane area, volume, curvature, curved_area, bending;
   Lane3 vector_area;
 };
 
@@ -83,6 +83,7 @@ void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &mod
       const Lane inverse = 1.0 / J, curvature = -s * inverse * inverse * inverse;    // 2H
       const Lane excess = curvature - c0;
       sum.curvature += weight * curvature * J;
+      sum.curved_area += weight * J;
       sum.bending += (0.5 * weight) * kc * excess * excess * J;
     }
   }
@@ -348,6 +349,7 @@ void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
     integrate(rule, p, model, slot, sum);
     if (!out.area.empty()) store(out.area, slot, sum.area);
     if (!out.curvature.empty()) store(out.curvature, slot, sum.curvature);
+    if (!out.curved_area.empty()) store(out.curved_area, slot, sum.curved_area);
     if (!out.bending.empty()) store(out.bending, slot, sum.bending);
     if (!volume) continue;
     store(out.volume, slot, sum.volume);

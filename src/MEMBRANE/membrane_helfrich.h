@@ -38,6 +38,7 @@ struct FaceIntegrals {
   std::vector<double> volume;         ///< [slots] (1/3) (r - origin).n dA
   std::vector<double> vector_area;    ///< [slots][3] n dA; comes with the volume only
   std::vector<double> curvature;      ///< [slots] 2H dA
+  std::vector<double> curved_area;    ///< [slots] dA with the weights of what depends on curvature; comes with curvature only
   std::vector<double> bending;        ///< [slots] kc/2 (2H - c0)^2 dA
 };
 

@@ -139,13 +139,17 @@ void LipidExchange::set_interaction(std::vector<double> w)
 void LipidExchange::add_up()
 {
   for (int l = 0; l < 2; ++l) {
-    sums_[l].assign(lipids_.num_faces(), Sums{0.0, 0.0});
-    for (int f = 0; f < lipids_.num_faces(); ++f)
+    sums_[l].resize(lipids_.num_faces());
+    for (int f = 0; f < lipids_.num_faces(); ++f) {
+      Sums sums{0.0, 0.0, empty_[l][f]};
       for (int i = 0; i < lipids_.size(l, f); ++i) {
         const ExchangedKind &kind = kinds_[lipids_.kind(l, lipids_.first(l, f) + i)];
-        sums_[l][f].area += kind.area;
-        sums_[l][f].curvature += kind.area * kind.curvature;
+        sums.area += kind.area;
+        sums.curvature += kind.area * kind.curvature;
       }
+      if (lipids_.size(l, f) > 0) sums.mean = sums.curvature / sums.area;
+      sums_[l][f] = sums;
+    }
   }
 }
 
@@ -170,12 +174,6 @@ void LipidExchange::list_lipids()
 
 // === Energies
 
-double LipidExchange::curvature(int leaflet, int face) const
-{
-  const Sums &sums = sums_[leaflet][face];
-  return lipids_.size(leaflet, face) == 0 ? empty_[leaflet][face] : sums.curvature / sums.area;
-}
-
 static double bending_energy(const FaceBending &e, double outer, double inner)
 {
   return outer * (e.linear[0] + 0.5 * e.quadratic[0] * outer + e.cross * inner) +
@@ -197,7 +195,7 @@ double LipidExchange::bending_change(const Place &p, const ExchangedKind &to, co
 {
   const Sums &sums = sums_[p.leaflet][p.face];
   const FaceBending &e = bending_[p.face];
-  const double before = sums.curvature / sums.area, other = curvature(1 - p.leaflet, p.face);
+  const double before = sums.mean, other = curvature(1 - p.leaflet, p.face);
   const double after = curvature_after(sums.area, sums.curvature, to, from);
   return (after - before) *
       (e.linear[p.leaflet] + e.cross * other + 0.5 * e.quadratic[p.leaflet] * (after + before));
@@ -250,6 +248,7 @@ void LipidExchange::move(const Place &p, int to, int from)
   Sums &sums = sums_[p.leaflet][p.face];
   sums.area += kinds_[to].area - kinds_[from].area;
   sums.curvature += kinds_[to].area * kinds_[to].curvature - kinds_[from].area * kinds_[from].curvature;
+  sums.mean = sums.curvature / sums.area;
   if (w_.empty()) return;
   int *n = &numbers_[p.leaflet][static_cast<size_t>(p.face) * lipids_.num_kinds()];
   ++n[to];
@@ -287,16 +286,40 @@ bool LipidExchange::attempt(const Place &p, const Place &q, double kT, double ra
   return true;
 }
 
+// what an attempt reads, on its way from memory while others are made
+
+void LipidExchange::fetch(const Place &p) const
+{
+  __builtin_prefetch(&sums_[0][p.face]);
+  __builtin_prefetch(&sums_[1][p.face]);
+  __builtin_prefetch(&bending_[p.face]);
+}
+
+// which lipids are drawn does not depend on what came of earlier attempts: many are drawn at once
+
 template <class Draw>
 double LipidExchange::sweep(int64_t attempts, double kT, const CounterRandom &random, const Draw &draw)
 {
   add_up();
   double sum = 0.0;
-  Place p, q;
-  for (int64_t i = 0; i < attempts; ++i) {
-    const auto word = random.words(i, 0);
-    double change;
-    if (draw(word, p, q) && attempt(p, q, kT, (word[3] + 0.5) * 0x1.0p-32, change)) sum += change;
+  uint32_t word[4][CounterRandom::MANY];
+  std::array<Attempt, CounterRandom::MANY> drawn;
+  for (int64_t first = 0; first < attempts; first += CounterRandom::MANY) {
+    random.words(first, word);
+    const int n = static_cast<int>(std::min<int64_t>(CounterRandom::MANY, attempts - first));
+    int count = 0;
+    for (int i = 0; i < n; ++i) {
+      Attempt &next = drawn[count];
+      if (!draw({word[0][i], word[1][i], word[2][i]}, next.p, next.q)) continue;
+      next.random = (word[3][i] + 0.5) * 0x1.0p-32;
+      fetch(next.p);
+      fetch(next.q);
+      ++count;
+    }
+    for (int i = 0; i < count; ++i) {
+      double change;
+      if (attempt(drawn[i].p, drawn[i].q, kT, drawn[i].random, change)) sum += change;
+    }
   }
   add_up();
   return sum;
@@ -307,7 +330,7 @@ double LipidExchange::swap_neighbors(int leaflet, int64_t attempts, const std::v
 {
   if (attempts == 0) return 0.0;
   const AliasTable table(weights);
-  return sweep(attempts, kT, random, [&](const std::array<uint32_t, 4> &word, Place &p, Place &q) {
+  return sweep(attempts, kT, random, [&](const std::array<uint32_t, 3> &word, Place &p, Place &q) {
     const LipidEdge &edge = edges_[table.draw(word[0])];
     const int n = lipids_.size(leaflet, edge.face[0]), m = lipids_.size(leaflet, edge.face[1]);
     if (n == 0 || m == 0) return false;
@@ -321,7 +344,7 @@ double LipidExchange::swap_anywhere(int leaflet, int64_t attempts, double kT, co
 {
   if (attempts == 0 || lipids_.size(leaflet) == 0) return 0.0;
   if (order_[leaflet].empty()) list_lipids();
-  return sweep(attempts, kT, random, [&](const std::array<uint32_t, 4> &word, Place &p, Place &q) {
+  return sweep(attempts, kT, random, [&](const std::array<uint32_t, 3> &word, Place &p, Place &q) {
     const int i = below(lipids_.size(leaflet), word[1]), m = membrane_[face_of_[leaflet][i]];
     const int first = first_[leaflet][m], n = first_[leaflet][m + 1] - first;
     const int j = order_[leaflet][first + below(n, word[2])];
@@ -336,7 +359,7 @@ double LipidExchange::swap_leaflets(int64_t attempts, const std::vector<double> 
 {
   if (attempts == 0) return 0.0;
   const AliasTable table(weights);
-  return sweep(attempts, kT, random, [&](const std::array<uint32_t, 4> &word, Place &p, Place &q) {
+  return sweep(attempts, kT, random, [&](const std::array<uint32_t, 3> &word, Place &p, Place &q) {
     const int face = table.draw(word[0]), n = lipids_.size(0, face), m = lipids_.size(1, face);
     if (n == 0 || m == 0) return false;
     p = {0, face, lipids_.first(0, face) + below(n, word[1])};

@@ -82,7 +82,7 @@ class LipidExchange {
   const FaceLipids &lipids() const { return lipids_; }
   const std::vector<LipidEdge> &edges() const { return edges_; }
   /// sum n a c/sum n a of a face and leaflet.
-  double curvature(int leaflet, int face) const;
+  double curvature(int leaflet, int face) const { return sums_[leaflet][face].mean; }
   /// The energy that swaps change, of all faces, anew: for checks.
   double energy() const;
 
@@ -96,9 +96,9 @@ class LipidExchange {
   std::vector<FaceBending> bending_;
   int64_t attempted_ = 0, accepted_ = 0;
 
-  /// Sums of a and of a c over the lipids of a face.
+  /// Sums of a and of a c over the lipids of a face, and the face's curvature: the latter over the former.
   struct Sums {
-    double area, curvature;
+    double area, curvature, mean;
   };
   std::array<std::vector<Sums>, 2> sums_;
   // with interactions only
@@ -112,6 +112,10 @@ class LipidExchange {
   struct Place {
     int leaflet, face, lipid;
   };
+  struct Attempt {
+    Place p, q;
+    double random;
+  };
   void add_up();
   void list_lipids();
   bool attempt(const Place &, const Place &, double kT, double random, double &change);
@@ -119,6 +123,7 @@ class LipidExchange {
   double leaflet_change(int face, double outer, double inner) const;
   double interaction_change(const Place &, int to, int from) const;
   void move(const Place &, int to, int from);
+  void fetch(const Place &) const;
   template <class Draw> double sweep(int64_t attempts, double kT, const CounterRandom &random, const Draw &draw);
 };
 

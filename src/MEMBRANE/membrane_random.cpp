@@ -98,22 +98,26 @@ void CounterRandom::box_muller(const Words (&word)[4], Quad (&z)[4])
   }
 }
 
-// in blocks of a size that the compiler makes vector loops of
+void CounterRandom::words(uint64_t first, uint32_t (&word)[4][MANY]) const
+{
+  for (int l = 0; l < MANY; ++l) {
+    const auto start = counter(first + l, 0);
+    for (int j = 0; j < 4; ++j) word[j][l] = start[j];
+  }
+  philox(word, key_);
+}
 
 void CounterRandom::normals(const std::vector<uint64_t> &labels, VertexField &z) const
 {
-  constexpr int BLOCK = 16 * LANES;
   const auto n = static_cast<int>(labels.size());
-  for (int first = 0; first < n; first += BLOCK) {
-    const int count = std::min(BLOCK, n - first);
-    uint32_t c[4][BLOCK];
-    for (int l = 0; l < BLOCK; ++l) {
+  for (int first = 0; first < n; first += MANY) {
+    const int count = std::min(MANY, n - first);
+    uint32_t c[4][MANY];
+    for (int l = 0; l < MANY; ++l) {
       const auto start = counter(labels[first + std::min(l, count - 1)], 0);
       for (int j = 0; j < 4; ++j) c[j][l] = start[j];
     }
-    auto k = key_;
-    for (int round = 0; round < ROUNDS; ++round, advance(k))
-      for (int l = 0; l < BLOCK; ++l) philox_round(c[0][l], c[1][l], c[2][l], c[3][l], k);
+    philox(c, key_);
     for (int at = 0; at < count; at += LANES) {
       Words word[4];
       Quad normal[4];
