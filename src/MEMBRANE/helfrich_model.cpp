@@ -296,7 +296,7 @@ void HelfrichModel::act()
   scene.conjugates.assign(scene.types.size(), Conjugates());
   for (HelfrichTerm *term : present) term->act_on_membranes(scene);
   for (const FaceGroup &group : scene.groups)
-    for (int s = 0; s < group.nslots(); ++s) {
+    for (int s = 0, n = group.nslots(); s < n; ++s) {
       const int slot = group.first_slot + s;
       const Conjugates &total = scene.conjugates[scene.membrane(group, s)];
       scene.model.tension[slot] = total.tension;

@@ -53,23 +53,26 @@ void MeshTotals::place_centres()
 
 /* ---------------------------------------------------------------------- */
 
-int MeshTotals::component_of(const FaceGroup &group, int s) const
+void MeshTotals::unwrap(int i, double *at) const
 {
-  const auto &topology = mesh->topology();
-  return topology.component(topology.face(group.face[std::min(s, group.nfaces - 1)])[0]);
+  if (atom->image[i] == NOT_MOVED)
+    std::copy_n(atom->x[i], 3, at);
+  else
+    domain->unmap(atom->x[i], atom->image[i], at);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &model) const
 {
+  const bool moved = std::any_of(atom->image, atom->image + atom->nlocal + atom->nghost,
+                                 [](imageint image) { return image != NOT_MOVED; });
   for (const FaceGroup &group : groups)
-    for (int s = 0; s < group.nslots(); ++s) {
-      const int face = group.face[std::min(s, group.nfaces - 1)];
-      const int owner = atom->map(mesh->tag(mesh->topology().face(face)[0]));
+    for (int s = 0, n = group.nslots(); s < n; ++s) {
       const Total &total = parts[component_of(group, s)];
       double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
       std::copy_n(total.centre, 3, origin);
+      if (!moved) continue;
+      const int face = group.face[std::min(s, group.nfaces - 1)];
+      const int owner = atom->map(mesh->tag(mesh->topology().face(face)[0]));
       if (atom->image[owner] == NOT_MOVED) continue;
       double unwrapped[3];
       domain->unmap(atom->x[owner], atom->image[owner], unwrapped);
@@ -85,7 +88,7 @@ void MeshTotals::place(const std::vector<FaceGroup> &groups, FaceModel &model)
   std::vector<double> mine(3 * parts.size(), 0.0), all(mine.size());
   for (const auto &[i, v] : mesh->owned_points()) {
     double unwrapped[3];
-    domain->unmap(atom->x[i], atom->image[i], unwrapped);
+    unwrap(i, unwrapped);
     for (int k = 0; k < 3; ++k) mine[3 * mesh->topology().component(v) + k] += unwrapped[k];
   }
   MPI_Allreduce(mine.data(), all.data(), mine.size(), MPI_DOUBLE, MPI_SUM, world);
@@ -127,7 +130,7 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
   if (wanted.volume)
     for (const auto &[i, v] : mesh->owned_points()) {
       double unwrapped[3];
-      domain->unmap(atom->x[i], atom->image[i], unwrapped);
+      unwrap(i, unwrapped);
       double *sum = &mine[mesh->topology().component(v) * WIDTH];
       for (int k = 0; k < 3; ++k) sum[5 + k] += unwrapped[k];
     }
@@ -156,8 +159,8 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
   }
   if (!wanted.volume) return;
   for (const FaceGroup &group : groups)
-    for (int s = 0; s < group.nslots(); ++s) {
-      const auto &d = shift[n == 1 ? 0 : component_of(group, s)];
+    for (int s = 0, n = group.nslots(); s < n; ++s) {
+      const auto &d = shift[component_of(group, s)];
       for (int k = 0; k < 3; ++k) model.origin[3 * (size_t) (group.first_slot + s) + k] += d[k];
     }
 }

@@ -17,6 +17,7 @@
 #include "membrane_helfrich.h"
 #include "mesh_local.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -55,7 +56,12 @@ class MeshTotals : protected Pointers {
   const std::vector<Total> &membranes() const { return sums; }
 
   /// The connected component of the face in a slot of a group.
-  int component_of(const Membrane_NS::FaceGroup &, int slot) const;
+  int component_of(const Membrane_NS::FaceGroup &group, int slot) const
+  {
+    const auto &topology = mesh->topology();
+    if (topology.num_components() == 1) return 0;    // most scenes, and each step asks for every face
+    return topology.component(topology.face(group.face[std::min(slot, group.nfaces - 1)])[0]);
+  }
 
  private:
   const LocalMesh &mesh;
@@ -63,6 +69,7 @@ class MeshTotals : protected Pointers {
   std::vector<Total> parts, sums;
 
   void place_centres();
+  void unwrap(int i, double *at) const;
   void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;
 };
 
