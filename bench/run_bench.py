@@ -4,10 +4,10 @@ LAMMPS' Lennard-Jones benchmark, both timed in this run.
 
   bench/run_bench.py [--lmp build/lmp] [--repeat 5] [--levels 3,4,5,6,7] [--ranks 2] [--out bench]
 
-A sphere of 10*4^level + 2 control points; where its size is nearest to that of a thermal mesh with vertices of
-valence 3 to 12, that mesh, too; with 10,242 points also ten lipids a face that trade places. In each round the
-benchmark is run before the cases of a level; the tables have the median over the rounds and, in brackets, the smallest and the largest. Writes
-OUT.csv and, with python3-matplotlib, OUT.png."""
+A sphere of 10*4^level + 2 control points; where its size is near that of a thermal mesh with vertices of
+valence 4 to 11, that mesh, too; with 10,242 points also ten lipids a face that trade places. In each round the
+benchmark is run before the cases of a level; the tables have the median over the rounds and, in brackets, the
+smallest and the largest. Writes OUT.csv and, with python3-matplotlib, OUT.png."""
 
 import argparse
 import csv

@@ -27,6 +27,21 @@ namespace {
 
 // === Numbers
 
+// swaps are drawn with these, and must not depend on how many are drawn at once
+
+TEST(RandomWords, OfManyLabelsAreThoseOfEach)
+{
+  const CounterRandom random(4711, 42);
+  uint32_t many[4][CounterRandom::MANY];
+  for (uint64_t first : {uint64_t(0), uint64_t(1000), (uint64_t(1) << 32) - 5}) {
+    random.words(first, many);
+    for (int l = 0; l < CounterRandom::MANY; ++l) {
+      const auto one = random.words(first + l, 0);
+      for (int j = 0; j < 4; ++j) EXPECT_EQ(many[j][l], one[j]) << "label " << first + l;
+    }
+  }
+}
+
 TEST(LipidNumbers, LargestRemaindersKeepTheSumAndGiveTiesToTheFirst)
 {
   EXPECT_EQ(largest_remainders({1.0, 1.0, 1.0}, 10), (std::vector<int>{4, 3, 3}));
