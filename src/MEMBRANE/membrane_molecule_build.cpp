@@ -31,10 +31,12 @@ using Eigen::Vector3d;
 
 static constexpr double LEAST_STRETCH = 0.1;    // of lengths at the heads: below, lipids have no room
 static constexpr int FIRST_STEPS = 100, STEPS = 50, LAST_STEPS = 150, ROUNDS = 4, TRIALS = 200;
+static constexpr int BENDS = 6, BEND_TRIALS = 1000;
 static constexpr double HURTS = 0.04;           // energy of a lipid that Monte Carlo is for
 static constexpr double TEMPERATURE = 0.005, SLIDE = 1.5;
 static constexpr size_t MOST_NAMED = 5;
 static constexpr int KINDS = 3000000;               // purpose of random numbers, and one more
+static constexpr int BENDING = 4000000;             // and as many more as there are rounds
 
 namespace {
 
@@ -150,9 +152,9 @@ void relax(LipidCrowd &crowd, const Vector3d &origin, BuildReport &report)
   LipidCrowd::Report state = crowd.report();
   report.clashes_before = state.lipids;
   const int total = static_cast<int>(crowd.lipids.size());
-  auto say = [&](int round, double energy) {
-    crowd.team().say(text("  relaxation %d of %d: overlap %.4g, %d of %d lipids in a clash, closest pair %.2f Angstrom",
-                          round, ROUNDS, energy, state.lipids, total, state.closest));
+  auto say = [&](const std::string &what, double energy) {
+    crowd.team().say(text("  %s: overlap %.4g, %d of %d lipids in a clash, closest pair %.2f Angstrom", what.c_str(),
+                          energy, state.lipids, total, state.closest));
   };
   double energy = crowd.relax(FIRST_STEPS);
   for (int round = 1; round <= ROUNDS; ++round) {
@@ -164,7 +166,17 @@ void relax(LipidCrowd &crowd, const Vector3d &origin, BuildReport &report)
     }
     energy = crowd.relax(round < ROUNDS ? STEPS : LAST_STEPS);
     state = crowd.report();
-    say(round, energy);
+    say(text("relaxation %d of %d", round, ROUNDS), energy);
+  }
+
+  // what rigid lipids cannot do
+
+  for (int round = 1; round <= BENDS; ++round) {
+    const int bent = crowd.bend(HURTS, BEND_TRIALS, round < BENDS ? TEMPERATURE : 0.0, BENDING + round);
+    if (!bent) break;
+    energy = crowd.relax(STEPS);
+    state = crowd.report();
+    say(text("bending %d of %d, %d lipids", round, BENDS, bent), energy);
   }
 
   // what relaxation may have put through a ring, and a last word

@@ -30,7 +30,8 @@ using Eigen::Vector3d;
 LipidCrowd::LipidCrowd(const PatchLipids &library, const std::vector<ParallelSurfaces> &parts,
                        const std::array<double, LEAFLETS> &neutral, const FixedAtoms &fixed, uint64_t seed, Team &team) :
     library_(library),
-    parts_(parts), neutral_(neutral), fixed_(fixed), seed_(seed), team_(team), kinds_(library.contacts.kinds())
+    parts_(parts), neutral_(neutral), fixed_(fixed), seed_(seed), team_(team), kinds_(library.contacts.kinds()),
+    conformers_(library.conformers)
 {
   for (int a = 0; a < kinds_; ++a)
     for (int b = 0; b < kinds_; ++b) {
@@ -48,7 +49,7 @@ PlacedLipid LipidCrowd::stand(const ParallelPlace &place, const Vector3d &along,
   frame.col(0) = (along - out * out.dot(along)).normalized();
   frame.col(1) = out.cross(frame.col(0));
   frame.col(2) = out;
-  return {place.x + out * library_.conformers[conformer].lift, Quaterniond(frame), place.point, conformer, leaflet, part};
+  return {place.x + out * conformers_[conformer].lift, Quaterniond(frame), place.point, conformer, leaflet, part};
 }
 
 ParallelPlace LipidCrowd::site_of(const PlacedLipid &lipid) const
@@ -66,18 +67,20 @@ LipidCrowd::Atoms LipidCrowd::atoms() const
 {
   Atoms all;
   for (size_t i = 0; i < lipids.size(); ++i) {
-    const Conformer &conformer = library_.conformers[lipids[i].conformer];
+    const Conformer &conformer = conformer_of(static_cast<int>(i));
     const auto &kinds = library_.species[conformer.species].kinds;
     const Matrix3d turn = lipids[i].turn.toRotationMatrix();
     for (size_t k = 0; k < kinds.size(); ++k) {
       all.x.push_back(lipids[i].x + turn * conformer.x[k]);
       all.owner.push_back(static_cast<int>(i));
       all.kind.push_back(kinds[k]);
+      all.index.push_back(static_cast<int>(k));
     }
   }
   all.x.insert(all.x.end(), fixed_.x.begin(), fixed_.x.end());
   all.kind.insert(all.kind.end(), fixed_.kinds.begin(), fixed_.kinds.end());
   all.owner.resize(all.x.size(), -1);
+  all.index.resize(all.x.size(), -1);
   return all;
 }
 
@@ -89,13 +92,8 @@ std::vector<double> LipidCrowd::energies() const
   std::vector<double> energy(lipids.size(), 0.0);
   for (size_t i = 0; i < all.x.size(); ++i) {
     if (all.owner[i] < 0) break;
-    near.near(all.x[i], [&](int j, const Vector3d &, double d2) {
-      if (all.owner[j] == all.owner[i]) return;
-      const double reach = soft(all.kind[i], all.kind[j]);
-      if (d2 >= reach * reach) return;
-      const double w = 1.0 - std::sqrt(d2) / reach;
-      energy[all.owner[i]] += w * w;
-    });
+    const int a = static_cast<int>(i);
+    near.near(all.x[a], [&](int b, const Vector3d &, double d2) { energy[all.owner[a]] += overlap(d2, reach(all, a, b)); });
   }
   return energy;
 }
@@ -110,10 +108,13 @@ LipidCrowd::Report LipidCrowd::report() const
   for (size_t i = 0; i < all.x.size(); ++i) {
     if (all.owner[i] < 0) break;
     near.near(all.x[i], [&](int j, const Vector3d &, double d2) {
-      if (all.owner[j] == all.owner[i]) return;
-      least = std::min(least, d2);
-      const double reach = CLASH * library_.contacts.closest(all.kind[i], all.kind[j]);
-      if (d2 < reach * reach) clash[all.owner[i]] = 1;
+      double closest = library_.contacts.closest(all.kind[i], all.kind[j]);
+      if (all.owner[j] == all.owner[i])
+        closest = std::min(closest, reach(all, static_cast<int>(i), j));
+      else
+        least = std::min(least, d2);
+      closest *= CLASH;
+      if (d2 < closest * closest) clash[all.owner[i]] = 1;
     });
   }
   Report report;
@@ -122,4 +123,31 @@ LipidCrowd::Report LipidCrowd::report() const
     if (clash[i]) report.which.push_back(static_cast<int>(i));
   report.lipids = static_cast<int>(report.which.size());
   return report;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LipidCrowd::give_own_shape(int lipid)
+{
+  if (has_own_shape(lipid)) return;
+  conformers_.push_back(conformer_of(lipid));
+  lipids[lipid].conformer = static_cast<int>(conformers_.size()) - 1;
+}
+
+void LipidCrowd::prepare_torsions()
+{
+  if (!torsions_.empty()) return;
+  for (size_t s = 0; s < library_.species.size(); ++s) torsions_.emplace_back(library_, static_cast<int>(s));
+  soft_within_ = closest_within(library_, torsions_);
+  for (size_t k = 0; k < soft_.size(); ++k) soft_within_[k] = std::min(soft_within_[k], soft_[k]);
+}
+
+// The largest distance of an atom from the centre of its lipid
+
+double LipidCrowd::reach_of_lipids() const
+{
+  double reach = 0.0;
+  for (const Conformer &conformer : conformers_)
+    for (const Vector3d &x : conformer.x) reach = std::max(reach, x.norm());
+  return reach;
 }

@@ -16,6 +16,7 @@
 
 #include "membrane_molecule_grid.h"
 #include "membrane_molecule_layout.h"
+#include "membrane_molecule_torsions.h"
 
 #include <cstdint>
 #include <string>
@@ -28,7 +29,8 @@ struct PlacedLipid {
   Eigen::Vector3d x;            ///< of its centre
   Eigen::Quaterniond turn;
   SurfacePoint point;           ///< of the limit surface, near it
-  int conformer, leaflet;
+  int conformer;                ///< of the library, or a shape of its own, see LipidCrowd::conformer()
+  int leaflet;
   int part;                     ///< which connected surface
 };
 
@@ -39,7 +41,9 @@ struct FixedAtoms {
 };
 
 /** All lipids of a structure, and where they get into each other's way. Two atoms of different lipids at a
-    distance d less than d_c = SOFT times the closest of their kinds in the patch have the energy (1 - d/d_c)^2.
+    distance d less than d_c = SOFT times the closest of their kinds in the patch have the energy (1 - d/d_c)^2. Lipids
+    that bend have it within themselves, too: of atoms more than three bonds apart, with d_c their closest distance
+    in lipids of the patch.
 
     Work is shared by a team; each has all lipids, and all do the same. */
 class LipidCrowd {
@@ -60,7 +64,8 @@ class LipidCrowd {
   CounterRandom random(int purpose) const { return {seed_, static_cast<uint64_t>(purpose)}; }
   Team &team() const { return team_; }
   double neutral(int leaflet) const { return neutral_[leaflet]; }
-  const Conformer &conformer_of(int lipid) const { return library_.conformers[lipids[lipid].conformer]; }
+  const Conformer &conformer(const PlacedLipid &lipid) const { return conformers_[lipid.conformer]; }
+  const Conformer &conformer_of(int lipid) const { return conformer(lipids[lipid]); }
   const LipidSpecies &species_of(int lipid) const { return library_.species[conformer_of(lipid).species]; }
   const FixedAtoms &fixed() const { return fixed_; }
 
@@ -69,7 +74,7 @@ class LipidCrowd {
   /// Atom k of a lipid that is placed.
   Eigen::Vector3d atom(const PlacedLipid &lipid, int k) const
   {
-    return lipid.x + lipid.turn * library_.conformers[lipid.conformer].x[k];
+    return lipid.x + lipid.turn * conformer(lipid).x[k];
   }
   /// The place of the neutral surface where a lipid stands.
   ParallelPlace site_of(const PlacedLipid &lipid) const;
@@ -83,30 +88,39 @@ class LipidCrowd {
   struct Atoms {
     std::vector<Eigen::Vector3d> x;
     std::vector<int> owner, kind;
+    std::vector<int> index;     ///< in the molecule
   };
   Atoms atoms() const;
   BeadGrid grid() const;
-  /// The energy of one lipid with the others of its own.
+  /// The energy of each lipid, with others and within itself.
   std::vector<double> energies() const;
 
   /// What is left of clashes.
   struct Report {
-    int lipids = 0;             ///< with a pair closer than CLASH times the closest of its kinds
-    double closest = 0.0;       ///< of all pairs, a length
+    int lipids = 0;             ///< with a pair closer than CLASH times the closest of its kinds in the patch
+    double closest = 0.0;       ///< of all pairs of different lipids, a length
     std::vector<int> which;     ///< lipids with such a pair
   };
   Report report() const;
 
   // === Relaxation
 
-  /** Rigid motion of all lipids down the energy, for so many steps. A lipid is drawn back to its height above the
-      neutral surface. Returns the energy before the last step. */
+  /** Motion of all lipids down the energy, for so many steps: as rigid bodies, and those of a shape of their own about
+      their torsions, too, up to LIBRATION from angles that were seen in the patch. A lipid is drawn back to its height above
+      the neutral surface. Returns the energy before the last step. */
   double relax(int steps);
 
   /** Monte Carlo of the lipids whose energy is more than `least`: turns about the normal, other
       conformers of the species, and slides of up to `slide`; from a temperature down to 0. Lipids that are too
       near to one another take turns. `purpose` tells random numbers of one call from those of others. */
   void shuffle(double least, int trials, double temperature, double slide, int purpose);
+
+  /** Monte Carlo of the shapes of lipids whose energy is more than `least`, which get shapes of their own: a torsion takes
+      an angle that another lipid of the patch has; two about parallel bonds turn against one another; the lipid moves a
+      little as a whole. Temperature and purpose as in shuffle(). Returns how many lipids these were. */
+  int bend(double least, int trials, double temperature, int purpose);
+
+  static constexpr double LIBRATION = 0.26;    ///< radian
 
  private:
   const PatchLipids &library_;
@@ -118,7 +132,37 @@ class LipidCrowd {
   int kinds_;
   double largest_soft_ = 0.0;
   std::vector<double> soft_;
+  std::vector<Conformer> conformers_;       // those of the library, then shapes of lipids' own
+  std::vector<LipidTorsions> torsions_;     // by species, once lipids bend
+  std::vector<double> soft_within_;         // as soft_, of one lipid
+
+  double reach(const Atoms &all, int a, int b) const;
+  bool has_own_shape(int lipid) const { return lipids[lipid].conformer >= static_cast<int>(library_.conformers.size()); }
+  void give_own_shape(int lipid);
+  void prepare_torsions();
+  double reach_of_lipids() const;
 };
+
+/// (1 - d/reach)^2 where d < reach.
+inline double overlap(double d2, double reach)
+{
+  if (d2 >= reach * reach) return 0.0;
+  const double w = 1.0 - std::sqrt(d2) / reach;
+  return w * w;
+}
+
+// d_c of two atoms of different lipids, or of one that bends; 0 of others
+
+inline double LipidCrowd::reach(const Atoms &all, int a, int b) const
+{
+  const int owner = all.owner[a];
+  if (owner != all.owner[b]) return soft(all.kind[a], all.kind[b]);
+  if (!has_own_shape(owner)) return 0.0;
+  const Conformer &shape = conformer_of(owner);
+  return torsions_[shape.species].apart[all.index[a] * shape.x.size() + all.index[b]]
+      ? soft_within_[all.kind[a] * kinds_ + all.kind[b]]
+      : 0.0;
+}
 
 /** Brings the numbers of lipids to what is wanted, [part][leaflet][species]: where there are too many, those
     with the most overlap go; where too few, the largest holes are filled; and where both, lipids change

@@ -490,11 +490,3 @@ double Contacts::largest() const
 {
   return *std::max_element(closest_.begin(), closest_.end());
 }
-
-double PatchLipids::largest_radius() const
-{
-  double radius = 0.0;
-  for (const Conformer &conformer : conformers)
-    for (const Vector3d &x : conformer.x) radius = std::max(radius, x.norm());
-  return radius;
-}

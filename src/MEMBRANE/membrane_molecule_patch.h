@@ -71,8 +71,6 @@ struct PatchLipids {
   std::vector<std::vector<int>> by_species;    ///< conformers
   Contacts contacts;
   double clash = 0.0;    ///< what the closest distance of all pairs is taken to be, in place of the patch's own
-
-  double largest_radius() const;
 };
 
 /// Where the lipids of a patch stand; its middle plane is at height 0.

@@ -15,7 +15,7 @@
    Contributing author: MEMBRANE developers
 ------------------------------------------------------------------------- */
 
-// Rigid motion and Monte Carlo of a crowd of lipids
+// Motion of a crowd of lipids down its energy
 
 #include "membrane_molecule_crowd.h"
 
@@ -35,9 +35,9 @@ static constexpr double WIDEST = LONGEST / 8.0;    // radian
 static constexpr double TO_HEIGHT = 0.02;      // of what is missing, in a step
 static constexpr double INERTIA = 5.0;         // Angstrom^2 that keeps thin lipids from spinning
 static constexpr double SKIN = 1.6;            // Angstrom: of lists of neighbours
+static constexpr double TURNING = 0.5;         // of an atom about a torsion, per force on it
 static constexpr double FEW = 0.02;            // of all lipids: lists of these alone are made anew
 static constexpr double STRAY = 1.5;           // Angstrom: how far the expansion of the height is used
-static constexpr double DRIFT = 4.0;           // Angstrom: how far Monte Carlo takes a lipid from where it was
 
 namespace {
 
@@ -78,11 +78,40 @@ struct Motion {
   Quaterniond turn;
 };
 
+// By how much each torsion of a lipid turns, down the energy; x and force of its atoms
+
+std::vector<double> turns_of(const LipidTorsions &flexible, const Vector3d *x, const std::vector<Vector3d> &force)
+{
+  std::vector<double> turns;
+  std::vector<Vector3d> places(x, x + force.size());
+  double way = 0.0;
+  for (const Torsion &torsion : flexible.torsions) {
+    const Vector3d &end = places[torsion.to];
+    const Vector3d axis = (end - places[torsion.from]).normalized();
+    double torque = 0.0, inertia = INERTIA, lever = 0.0;
+    for (int k : torsion.turning) {
+      const Vector3d arm = axis.cross(places[k] - end);
+      torque += arm.dot(force[k]);
+      inertia += arm.squaredNorm();
+      lever = std::max(lever, arm.squaredNorm());
+    }
+    double turn = TURNING * torque / inertia;
+    const double now = torsion.angle(places), off = std::fabs(torsion.off(now + turn));
+    if (off > LipidCrowd::LIBRATION && off > std::fabs(torsion.off(now))) turn = 0.0;
+    turns.push_back(turn);
+    way += std::fabs(turn) * std::sqrt(lever);
+  }
+  if (way > LONGEST)
+    for (double &turn : turns) turn *= LONGEST / way;
+  return turns;
+}
+
 }    // namespace
 
 /* ----------------------------------------------------------------------
    Forces on atoms F = (d_c - d)/2 along each pair; a lipid of n atoms goes by MOBILITY/n times their sum and turns by
-   MOBILITY I^-1 times their torque. All as in gradient descent, with steps that are cut short.
+   MOBILITY I^-1 times their torque; the part beyond a torsion turns by TURNING times the torque about the bond, over
+   its moment of inertia. All as in gradient descent, with steps that are cut short.
 ------------------------------------------------------------------------- */
 
 double LipidCrowd::relax(int steps)
@@ -102,6 +131,7 @@ double LipidCrowd::relax(int steps)
   BeadGrid near = grid();
   std::vector<Anchor> anchors(last - first);
   std::vector<Motion> listed(n);    // where lipids were when they were last found to be stale
+  std::vector<double> bent(n, 0.0);    // how far atoms may have gone since by torsions
   std::vector<char> stale(n, 1);
   std::vector<Neighbours> lists(last - first);
   std::vector<Vector3d> shifts(1, Vector3d::Zero());
@@ -114,9 +144,8 @@ double LipidCrowd::relax(int steps)
     of.image.clear();
     for (int a = start[i]; a < start[i + 1]; ++a) {
       near.near(all.x[a], [&](int b, const Vector3d &d, double d2) {
-        if (all.owner[b] == i) return;
-        const double reach = soft(all.kind[a], all.kind[b]) + SKIN;
-        if (d2 >= reach * reach) return;
+        const double limit = reach(all, a, b);
+        if (limit == 0.0 || d2 >= (limit + SKIN) * (limit + SKIN)) return;
         unsigned char image = 0;
         if (surface.is_periodic()) {
           const Vector3d shift = d - (all.x[b] - all.x[a]);
@@ -147,6 +176,8 @@ double LipidCrowd::relax(int steps)
     }
     for (int i = first; i < last; ++i)
       if (!few || affected[i]) list(i);
+    for (int i = 0; i < n; ++i)
+      if (!few || stale[i]) bent[i] = 0.0;
     if (!few)
       for (int i = 0; i < n; ++i) listed[i] = {lipids[i].x, lipids[i].turn};
     std::fill(stale.begin(), stale.end(), 0);
@@ -154,39 +185,41 @@ double LipidCrowd::relax(int steps)
 
   std::vector<Motion> mine(last - first), moved;
   std::vector<Vector3d> force;
+  std::vector<double> my_turns, turns;    // of the lipids that bend
   for (int step = 0; step < steps; ++step) {
     if (std::find(stale.begin(), stale.end(), 1) != stale.end()) make_lists();
     energy = 0.0;
+    my_turns.clear();
     for (int i = first; i < last; ++i) {
       PlacedLipid &lipid = lipids[i];
       const int natoms = start[i + 1] - start[i];
       Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
       Matrix3d inertia = INERTIA * Matrix3d::Identity();
       bool pushed = false;
+      force.assign(natoms, Vector3d::Zero());
       const Neighbours &near_by = lists[i - first];
       for (int a = start[i]; a < start[i + 1]; ++a) {
-        Vector3d f = Vector3d::Zero();
         const int row = a - start[i];
         for (int p = near_by.start[row]; p < near_by.start[row + 1]; ++p) {
           const int b = near_by.atom[p];
           const Vector3d d = all.x[b] - all.x[a] + shifts[near_by.image[p]];
-          const double reach = soft(all.kind[a], all.kind[b]), d2 = d.squaredNorm();
-          if (d2 >= reach * reach) continue;
-          const double length = std::sqrt(d2) + 1.0e-9, w = 1.0 - length / reach;
+          const double limit = reach(all, a, b), d2 = d.squaredNorm();
+          if (d2 >= limit * limit) continue;
+          const double length = std::sqrt(d2) + 1.0e-9, w = 1.0 - length / limit;
           energy += 0.5 * w * w;
-          f -= (0.5 * (reach - length) / length) * d;
+          force[row] -= (0.5 * (limit - length) / length) * d;
           pushed = true;
         }
         if (!pushed) continue;
         const Vector3d r = all.x[a] - lipid.x;
-        sum += f;
-        torque += r.cross(f);
+        sum += force[row];
+        torque += r.cross(force[row]);
       }
       Anchor &anchor = anchors[i - first];
       if (!(anchor.height < INFINITY) || (lipid.x - anchor.x).squaredNorm() > STRAY * STRAY)
         anchor.drop(parts_[lipid.part], lipid.x, lipid.point);
       const double wanted =
-          sign_of(lipid.leaflet) * (neutral_[lipid.leaflet] + library_.conformers[lipid.conformer].lift);
+          sign_of(lipid.leaflet) * (neutral_[lipid.leaflet] + conformer(lipid).lift);
       Vector3d shift = sum * (MOBILITY / natoms);
       if (const double length = shift.norm(); length > LONGEST) shift *= LONGEST / length;
       shift -= anchor.normal * (TO_HEIGHT * (anchor.height_of(lipid.x) - wanted));
@@ -205,20 +238,36 @@ double LipidCrowd::relax(int steps)
         if (size > 1.0e-12) turn = (Quaterniond(Eigen::AngleAxisd(size, angle / size)) * turn).normalized();
       }
       mine[i - first] = {lipid.x + shift, turn};
+      if (has_own_shape(i)) {
+        const std::vector<double> of_lipid = turns_of(torsions_[conformer(lipid).species], &all.x[start[i]], force);
+        my_turns.insert(my_turns.end(), of_lipid.begin(), of_lipid.end());
+      }
     }
 
     // all know where all have gone
 
     moved = concatenate(team_, mine);
+    turns = concatenate(team_, my_turns);
+    auto next_turn = turns.begin();
     for (int i = 0; i < n; ++i) {
       PlacedLipid &lipid = lipids[i];
-      if (moved[i].x == lipid.x && moved[i].turn.coeffs() == lipid.turn.coeffs()) continue;
+      bool bends = false;
+      if (has_own_shape(i)) {
+        Conformer &shape = conformers_[lipid.conformer];
+        for (const Torsion &torsion : torsions_[shape.species].torsions) {
+          if (*next_turn != 0.0) bent[i] += torsion.turn(*next_turn, shape.x);
+          bends |= *next_turn++ != 0.0;
+        }
+        if (bends)
+          for (const Vector3d &x : shape.x) radius[i] = std::max(radius[i], x.norm());
+      }
+      if (!bends && moved[i].x == lipid.x && moved[i].turn.coeffs() == lipid.turn.coeffs()) continue;
       lipid.x = moved[i].x;
       lipid.turn = moved[i].turn;
       const Matrix3d turn = lipid.turn.toRotationMatrix();
       const auto &shape = conformer_of(i).x;
       for (size_t k = 0; k < shape.size(); ++k) all.x[start[i] + k] = lipid.x + turn * shape[k];
-      const double way = (lipid.x - listed[i].x).norm() +
+      const double way = (lipid.x - listed[i].x).norm() + bent[i] +
           2.0 * radius[i] * (lipid.turn.inverse() * listed[i].turn).vec().norm();
       stale[i] = 4.0 * way > SKIN;
     }
@@ -226,128 +275,4 @@ double LipidCrowd::relax(int steps)
   double total = 0.0;
   for (double part : concatenate(team_, std::vector<double>{energy})) total += part;
   return total;
-}
-
-/* ----------------------------------------------------------------------
-   Lipids that hurt, in colours: no two of a colour can feel each other. While those of a colour try new places all
-   others stand still, so it does not matter who tries which.
-------------------------------------------------------------------------- */
-
-void LipidCrowd::shuffle(double least, int trials, double temperature, double slide, int purpose)
-{
-  const CounterRandom mine = random(purpose);
-  const std::vector<double> hurt = energies();
-  std::vector<int> chosen;
-  for (size_t i = 0; i < lipids.size(); ++i)
-    if (hurt[i] > least) chosen.push_back(static_cast<int>(i));
-  if (chosen.empty()) return;
-
-  const double apart = 2.0 * (library_.largest_radius() + slide) + largest_soft_;
-  std::vector<Vector3d> centres;
-  for (int i : chosen) centres.push_back(lipids[i].x);
-  BeadGrid near = grid();
-  near.fill(centres, apart);
-  std::vector<int> colour(chosen.size(), -1);
-  std::vector<std::vector<int>> batches;
-  for (size_t c = 0; c < chosen.size(); ++c) {
-    std::vector<char> taken(batches.size() + 1, 0);
-    near.near(centres[c], [&](int other, const Vector3d &, double) {
-      if (colour[other] >= 0) taken[colour[other]] = 1;
-    });
-    colour[c] = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
-    if (colour[c] == static_cast<int>(batches.size())) batches.emplace_back();
-    batches[colour[c]].push_back(chosen[c]);
-  }
-
-  // atoms that stand still all the time, and the others
-
-  std::vector<char> moves(lipids.size(), 0);
-  for (int i : chosen) moves[i] = 1;
-  Atoms still, other, all = atoms();
-  for (size_t a = 0; a < all.x.size(); ++a) {
-    if (all.owner[a] >= 0 && moves[all.owner[a]]) continue;
-    still.x.push_back(all.x[a]);
-    still.owner.push_back(all.owner[a]);
-    still.kind.push_back(all.kind[a]);
-  }
-  near.fill(still.x, largest_soft_);
-  BeadGrid near_other = grid();
-
-  auto energy_of = [&](const PlacedLipid &lipid, int me) {
-    const Conformer &conformer = library_.conformers[lipid.conformer];
-    const auto &kinds = library_.species[conformer.species].kinds;
-    const Matrix3d turn = lipid.turn.toRotationMatrix();
-    double energy = 0.0;
-    for (size_t k = 0; k < kinds.size(); ++k) {
-      const Vector3d x = lipid.x + turn * conformer.x[k];
-      auto add = [&](const Atoms &atoms, int b, double d2) {
-        if (atoms.owner[b] == me) return;
-        const double reach = soft(kinds[k], atoms.kind[b]);
-        if (d2 >= reach * reach) return;
-        const double w = 1.0 - std::sqrt(d2) / reach;
-        energy += w * w;
-      };
-      near.near(x, [&](int b, const Vector3d &, double d2) { add(still, b, d2); });
-      near_other.near(x, [&](int b, const Vector3d &, double d2) { add(other, b, d2); });
-    }
-    return energy;
-  };
-
-  struct Result {
-    int lipid;
-    PlacedLipid placed;
-  };
-  for (const std::vector<int> &batch : batches) {
-    other = Atoms();
-    for (int i : chosen) {
-      const auto &kinds = species_of(i).kinds;
-      for (size_t k = 0; k < kinds.size(); ++k) {
-        other.x.push_back(atom(lipids[i], static_cast<int>(k)));
-        other.owner.push_back(i);
-        other.kind.push_back(kinds[k]);
-      }
-    }
-    near_other.fill(other.x, largest_soft_);
-    std::vector<Result> results;
-    for (size_t b = team_.rank(); b < batch.size(); b += team_.size()) {
-      const int i = batch[b];
-      PlacedLipid now = lipids[i];
-      const ParallelSurfaces &part = parts_[now.part];
-      const double height = sign_of(now.leaflet) * neutral_[now.leaflet];
-      const auto &like = library_.by_species[library_.conformers[now.conformer].species];
-      const ParallelPlace home = site_of(now);
-      ParallelPlace place = home;
-      Vector3d along = now.turn * Vector3d::UnitX();
-      double energy = energy_of(now, i);
-      for (int t = 0; t < trials && energy > 1.0e-4; ++t) {
-        const uint64_t label = static_cast<uint64_t>(i);
-        const uint32_t block = 4 * static_cast<uint32_t>(t);
-        const auto a = mine.uniforms(label, block), b1 = mine.uniforms(label, block + 1);
-        ParallelPlace new_place = place;
-        double angle = 2.0 * M_PI * a[1];
-        int conformer = now.conformer;
-        if (a[0] > 2.0 / 3.0) {
-          const auto c = mine.uniforms(label, block + 2);
-          const Vector3d step = slide * Vector3d(2.0 * b1[0] - 1.0, 2.0 * b1[1] - 1.0, 2.0 * c[0] - 1.0);
-          new_place = part.project(place.x + step, place.point, height);
-          if ((new_place.x - home.x).squaredNorm() > DRIFT * DRIFT) continue;
-          angle = 0.3 * (2.0 * a[1] - 1.0);
-        } else if (a[0] > 1.0 / 3.0)
-          conformer = like[std::min<size_t>(static_cast<size_t>(b1[0] * like.size()), like.size() - 1)];
-        const Vector3d direction = Eigen::AngleAxisd(angle, new_place.normal) * along;
-        const PlacedLipid trial = stand(new_place, direction, conformer, now.leaflet, now.part);
-        const double new_energy = energy_of(trial, i);
-        const double heat = temperature * (1.0 - static_cast<double>(t) / trials);
-        if (new_energy < energy ||
-            mine.uniforms(label, block + 3)[0] < std::exp(-(new_energy - energy) / (heat + 1.0e-9))) {
-          energy = new_energy;
-          now = trial;
-          place = new_place;
-          along = direction;
-        }
-      }
-      results.push_back({i, now});
-    }
-    for (const Result &result : concatenate(team_, results)) lipids[result.lipid] = result.placed;
-  }
 }

@@ -67,7 +67,7 @@ class Bonds {
   /// Calls f(lipid) of bonds of others through rings of lipid i, placed anywhere.
   template <class F> void through_rings(int i, const PlacedLipid &lipid, F &&f) const
   {
-    for (const auto &ring : crowd_.library().species[crowd_.library().conformers[lipid.conformer].species].rings) {
+    for (const auto &ring : crowd_.library().species[crowd_.conformer(lipid).species].rings) {
       std::vector<Vector3d> corner;
       Vector3d centre = Vector3d::Zero();
       for (int k : ring) {
@@ -135,7 +135,7 @@ std::vector<PiercedRing> Membrane_NS::free_rings(LipidCrowd &crowd)
       const Bonds bonds(crowd);
       const CounterRandom random = crowd.random(PURPOSE + round);
       const ParallelPlace home = crowd.site_of(before);
-      const auto &like = crowd.library().by_species[crowd.library().conformers[before.conformer].species];
+      const auto &like = crowd.library().by_species[crowd.conformer(before).species];
       double best = INFINITY;
       PlacedLipid chosen = before;
       for (int t = 0; t < TRIALS; ++t) {

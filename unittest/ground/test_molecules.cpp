@@ -428,52 +428,71 @@ TEST(Structure, ProteinsHaveTheirPlaceWithoutLipids)
     for (int k = 0; k < 20; ++k) EXPECT_GT((built.structure.x[i] - built.structure.x[k]).norm(), 1.5);
 }
 
+// A species of carbon atoms and its conformers, in a library of such
+
+void add_species(PatchLipids &library, const std::string &name, const std::vector<int> &bonds,
+                 const std::vector<std::vector<Vector3d>> &conformers)
+{
+  const int number = static_cast<int>(library.species.size());
+  MoleculeAtom atom;
+  atom.name = "C";
+  LipidSpecies species;
+  species.name = name;
+  species.terms[BOND] = bonds;
+  species.rings = find_rings(static_cast<int>(conformers[0].size()), bonds);
+  species.atoms.assign(conformers[0].size(), atom);
+  species.kinds.assign(conformers[0].size(), library.contacts.kind(atom));
+  library.species.push_back(species);
+  library.by_species.emplace_back();
+  for (const auto &x : conformers) {
+    library.by_species[number].push_back(static_cast<int>(library.conformers.size()));
+    library.conformers.push_back({number, 0.0, x});
+  }
+}
+
+/// A crowd on a periodic plane of 40 x 40 Angstrom.
+struct Flat {
+  TriangleMesh mesh;
+  std::unique_ptr<Topology> topology;
+  std::unique_ptr<LimitSurfaceOfMesh> surface;
+  std::vector<ParallelSurfaces> parts;
+  Team alone;
+  FixedAtoms fixed;
+  std::unique_ptr<LipidCrowd> crowd;
+
+  Flat(const PatchLipids &library, const FixedAtoms &atoms = {}) : fixed(atoms)
+  {
+    const Matrix3d lattice = Vector3d(40.0, 40.0, 40.0).asDiagonal();
+    mesh = sheet(8, 8, lattice, 0.5);
+    mesh.lattice = lattice;
+    mesh.periodic = {true, true, true};
+    topology = std::make_unique<Topology>(mesh.points.size(), mesh.faces);
+    surface = std::make_unique<LimitSurfaceOfMesh>(*topology, mesh);
+    std::vector<int> faces;
+    for (int f = 0; f < topology->num_faces(); ++f) faces.push_back(f);
+    parts.emplace_back(*surface, faces);
+    crowd = std::make_unique<LipidCrowd>(library, parts, std::array<double, LEAFLETS>{1.0, 1.0}, fixed, 1, alone);
+  }
+};
+
 TEST(Rings, BondsThatGoThroughAreFoundAndUndone)
 {
   // two kinds on a plane: rings of six in a sheet, and rods, one of which stands in a ring
 
-  MoleculeFile file;
-  file.path = "rings";
   PatchLipids library;
-  library.species.resize(2);
-  library.by_species = {{0}, {1}};
-  auto add = [&](int s, const std::vector<Vector3d> &x, const std::vector<int> &bonds) {
-    LipidSpecies &species = library.species[s];
-    species.name = s ? "ROD" : "RING";
-    species.terms[BOND] = bonds;
-    species.rings = find_rings(static_cast<int>(x.size()), bonds);
-    for (size_t k = 0; k < x.size(); ++k) {
-      MoleculeAtom atom;
-      atom.name = "C";
-      species.atoms.push_back(atom);
-      species.kinds.push_back(library.contacts.kind(atom));
-    }
-    library.conformers.push_back({s, 0.0, x});
-  };
   std::vector<Vector3d> ring;
   std::vector<int> bonds;
   for (int k = 0; k < 6; ++k) {
     ring.emplace_back(1.4 * std::cos(M_PI * k / 3), 1.4 * std::sin(M_PI * k / 3), 0.0);
     bonds.insert(bonds.end(), {k, (k + 1) % 6});
   }
-  add(0, ring, bonds);
-  add(1, {{0, 0, -0.8}, {0, 0, 0.8}}, {0, 1});
+  add_species(library, "RING", bonds, {ring});
+  add_species(library, "ROD", {0, 1}, {{{0, 0, -0.8}, {0, 0, 0.8}}});
   library.contacts.settle(1.5);
 
-  const Matrix3d lattice = Vector3d(40.0, 40.0, 40.0).asDiagonal();
-  TriangleMesh mesh = sheet(8, 8, lattice, 0.5);
-  mesh.lattice = lattice;
-  mesh.periodic = {true, true, true};
-  const Topology topology(mesh.points.size(), mesh.faces);
-  const LimitSurfaceOfMesh surface(topology, mesh);
-  std::vector<int> faces;
-  for (int f = 0; f < topology.num_faces(); ++f) faces.push_back(f);
-  std::vector<ParallelSurfaces> parts;
-  parts.emplace_back(surface, faces);
-  Team alone;
-  FixedAtoms none;
-  LipidCrowd crowd(library, parts, {1.0, 1.0}, none, 1, alone);
-  const ParallelPlace here = parts[0].lift({3, 0.3, 0.3}, 1.0);
+  Flat flat(library);
+  LipidCrowd &crowd = *flat.crowd;
+  const ParallelPlace here = flat.parts[0].lift({3, 0.3, 0.3}, 1.0);
   crowd.lipids = {crowd.stand(here, Vector3d::UnitX(), 0, OUTER, 0), crowd.stand(here, Vector3d::UnitX(), 1, OUTER, 0)};
   EXPECT_EQ(find_pierced_rings(crowd).size(), 1u);
   crowd.lipids[1].x += Vector3d(1.6, 0.0, 0.0);    // beside the ring
@@ -482,6 +501,174 @@ TEST(Rings, BondsThatGoThroughAreFoundAndUndone)
   EXPECT_EQ(find_pierced_rings(crowd).size(), 1u);
   EXPECT_EQ(free_rings(crowd).size(), 0u);
   EXPECT_EQ(find_pierced_rings(crowd).size(), 0u);
+}
+
+// === Lipids that bend
+
+// A chain of ten with a double bond between 4 and 5 and a ring at its end, in many shapes
+
+std::vector<std::vector<Vector3d>> chains(int number, std::vector<int> &bonds)
+{
+  bonds.clear();
+  std::vector<Vector3d> x;
+  for (int k = 0; k < 10; ++k) x.emplace_back(0.8 * (k % 2), 0.0, -1.25 * k);
+  for (int k = 0; k < 9; ++k) bonds.insert(bonds.end(), {k, k + 1});
+  x.push_back(x[9] + Vector3d(-0.8, 1.2, -0.4));
+  x.push_back(x[9] + Vector3d(-0.8, -0.3, -1.2));
+  bonds.insert(bonds.end(), {9, 10, 10, 11, 11, 9});
+  std::vector<std::vector<Vector3d>> shapes;
+  std::srand(5);
+  for (int s = 0; s < number; ++s) {
+    shapes.push_back(x);
+    for (int k = 1; k < 9; ++k) {
+      Torsion torsion;
+      torsion.from = k;
+      torsion.to = k + 1;
+      for (int l = k + 2; l < 12; ++l) torsion.turning.push_back(l);
+      const double three = 2.0 * M_PI / 3.0 * static_cast<int>(3.0 * uniform());
+      torsion.turn((k == 4 ? 0.0 : three) + 0.2 * (uniform() - 0.5), shapes.back());
+    }
+  }
+  return shapes;
+}
+
+// Lengths of bonds and the angles between them, as distances
+
+std::vector<double> lengths(const std::vector<Vector3d> &x)
+{
+  std::vector<double> all = {(x[10] - x[9]).norm(), (x[11] - x[10]).norm(), (x[11] - x[9]).norm(), (x[10] - x[8]).norm()};
+  for (int k = 0; k < 9; ++k) all.push_back((x[k + 1] - x[k]).norm());
+  for (int k = 0; k < 8; ++k) all.push_back((x[k + 2] - x[k]).norm());
+  return all;
+}
+
+TEST(Torsions, ArePartsThatTurnAboutBondsInNoRing)
+{
+  PatchLipids library;
+  std::vector<int> bonds;
+  const auto shapes = chains(40, bonds);
+  add_species(library, "CHAIN", bonds, shapes);
+  const LipidTorsions lipid(library, 0);
+
+  // those of bonds between inner atoms, without the double one; the smaller part turns
+
+  std::set<std::pair<int, int>> found;
+  for (const Torsion &torsion : lipid.torsions) {
+    found.insert(std::minmax(torsion.from, torsion.to));
+    EXPECT_LE(torsion.turning.size(), 5u);
+    EXPECT_EQ(torsion.seen.size(), 40u);
+    EXPECT_TRUE(std::is_sorted(torsion.seen.begin(), torsion.seen.end()));
+  }
+  EXPECT_EQ(found, (std::set<std::pair<int, int>>{{1, 2}, {2, 3}, {3, 4}, {5, 6}, {6, 7}, {7, 8}, {8, 9}}));
+
+  for (const Torsion &torsion : lipid.torsions) {
+    auto x = shapes[3];
+    const double way = torsion.turn(0.7, x);
+    EXPECT_THAT(lengths(x), testing::Pointwise(testing::DoubleNear(1e-12), lengths(shapes[3])));
+    double most = 0.0;
+    for (size_t k = 0; k < x.size(); ++k) most = std::max(most, (x[k] - shapes[3][k]).norm());
+    EXPECT_NEAR(way, most, 1e-12);
+    for (const Torsion &other : lipid.torsions) {
+      const double by = &other == &torsion ? 0.7 : 0.0;
+      EXPECT_NEAR(std::remainder(other.angle(x) - other.angle(shapes[3]) - by, 2.0 * M_PI), 0.0, 1e-12);
+    }
+  }
+
+  // the nearest of angles, across pi, too
+
+  Torsion torsion;
+  torsion.seen = {-3.0, 0.5, 2.9};
+  EXPECT_NEAR(torsion.off(3.1), -(-3.0 + 2.0 * M_PI - 3.1), 1e-12);
+  EXPECT_NEAR(torsion.off(-3.13), -0.13, 1e-12);
+  EXPECT_NEAR(torsion.off(2.95), 0.05, 1e-12);
+  EXPECT_NEAR(torsion.off(0.1), -0.4, 1e-12);
+
+  // apart: more than three bonds; 10 and 11 are in a ring with 9
+
+  EXPECT_FALSE(lipid.apart[0 * 12 + 0] || lipid.apart[0 * 12 + 3] || lipid.apart[3 * 12 + 0] || lipid.apart[7 * 12 + 11]);
+  EXPECT_TRUE(lipid.apart[0 * 12 + 4] && lipid.apart[6 * 12 + 11] && lipid.apart[11 * 12 + 6]);
+  library.contacts.settle(3.0);
+  double least = INFINITY;
+  for (const auto &x : shapes)
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j)
+        if (lipid.apart[i * 12 + j]) least = std::min(least, (x[i] - x[j]).norm());
+  EXPECT_EQ(closest_within(library, {lipid}), std::vector<double>{least});
+}
+
+TEST(Torsions, LetLipidsOutOfEachOthersWay)
+{
+  PatchLipids library;
+  std::vector<int> bonds;
+  const auto shapes = chains(40, bonds);
+  add_species(library, "CHAIN", bonds, shapes);
+  library.contacts.settle(3.0);
+  const LipidTorsions lipid(library, 0);
+
+  // a chain whose head is in a cage that it fits, and with atoms where its tail is
+
+  FixedAtoms cage;
+  Flat empty(library);
+  const PlacedLipid placed = empty.crowd->stand(empty.parts[0].lift({3, 0.3, 0.3}, 1.0), Vector3d::UnitX(), 7, OUTER, 0);
+  auto distance = [&](const Vector3d &x, int first, int last) {
+    double least = INFINITY;
+    for (int k = first; k <= last; ++k) least = std::min(least, (shapes[7][k] - x).norm());
+    return least;
+  };
+  for (int cell = 0; cell < 40 * 40 * 40; ++cell) {
+    const Vector3d x = shapes[7][0] + Vector3d(cell % 40 - 20, cell / 40 % 40 - 20, cell / 1600 - 20);
+    if (distance(x, 0, 4) < 4.5 && distance(x, 0, 11) > 3.1) cage.x.push_back(placed.x + placed.turn * x);
+  }
+  for (int k : {7, 8, 9, 10, 11}) cage.x.push_back(placed.x + placed.turn * shapes[7][k]);
+  cage.kinds.assign(cage.x.size(), 0);
+  Flat flat(library, cage);
+  LipidCrowd &crowd = *flat.crowd;
+  crowd.lipids = {placed};
+  crowd.relax(300);
+  EXPECT_EQ(crowd.report().lipids, 1);
+  for (int round = 0; round < 3; ++round) {
+    crowd.bend(1e-3, 1000, 0.005, round);
+    crowd.relax(50);
+  }
+  EXPECT_EQ(crowd.report().lipids, 0);
+  EXPECT_LT(crowd.energies()[0], 0.02);
+  std::vector<Vector3d> x;
+  for (int k = 0; k < 12; ++k) x.push_back(crowd.atom(crowd.lipids[0], k));
+  EXPECT_THAT(lengths(x), testing::Pointwise(testing::DoubleNear(1e-9), lengths(shapes[7])));
+  for (const Torsion &torsion : lipid.torsions) EXPECT_LT(std::fabs(torsion.off(torsion.angle(x))), LipidCrowd::LIBRATION + 1e-9);
+}
+
+TEST(Torsions, TurnDownTheEnergy)
+{
+  PatchLipids library;
+  std::vector<int> bonds;
+  const auto shapes = chains(40, bonds);
+  add_species(library, "CHAIN", bonds, shapes);
+  library.contacts.settle(3.0);
+
+  // an atom beside each of the chain in turn; what a step gains as a rigid body, and with torsions
+
+  Flat empty(library);
+  const PlacedLipid placed = empty.crowd->stand(empty.parts[0].lift({3, 0.3, 0.3}, 1.0), Vector3d::UnitX(), 7, OUTER, 0);
+  for (int k = 0; k < 12; ++k) {
+    FixedAtoms beside;
+    beside.x.push_back(placed.x + placed.turn * (shapes[7][k] + Vector3d(0.9, 2.0, 1.2)));
+    beside.kinds.push_back(0);
+    Flat flat(library, beside);
+    LipidCrowd &crowd = *flat.crowd;
+    double energy[3];
+    for (int way = 0; way < 3; ++way) {
+      crowd.lipids = {placed};
+      if (way == 2) crowd.bend(-1.0, 0, 0.0, 0);    // a shape of its own
+      if (way > 0) crowd.relax(1);
+      energy[way] = crowd.energies()[0];
+    }
+    EXPECT_GT(energy[0], energy[1]) << k;
+    EXPECT_GE(energy[1], energy[2]) << k;
+    if (k < 2 || k > 6) {    // torsions matter
+      EXPECT_GT(energy[1], energy[2]) << k;
+    }
+  }
 }
 
 // === Files

@@ -1,9 +1,9 @@
 """membrane_build: lipids of a patch on membranes, whole and as many as the area asks for; its files read back by others; odd
 PDB files and bad input.
 
-    MEMBRANE_LONG=1    more shapes, from a patch that ran for longer
+    MEMBRANE_LONG=1    more shapes, from a patch that ran for longer; a sphere of lipids with hydrogens
 """
-# cost: 45
+# cost: 70
 # timeout: 7200
 
 import glob
@@ -17,6 +17,7 @@ import subprocess
 import sys
 
 from lammps_claims import EXAMPLES, LMP, LONG, MPIEXEC, claim, error_of, finish, lammps, run, skip, start
+from vectors import cross, dihedral, dot, minus
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FOLDER = os.path.join(EXAMPLES, "molecules")
@@ -26,6 +27,7 @@ for name in glob.glob(os.path.join(FOLDER, "*")):
     shutil.copy(name, ".")
 sys.path.insert(0, FOLDER)
 import make_patch    # noqa: E402
+import atom_patch    # noqa: E402
 
 START = """
 units           real
@@ -80,23 +82,33 @@ def read_data(path):
     return list(molecules.values()), [[int(w) for w in words[2:]] for words in section("Bonds")]
 
 
-def minus(a, b):
-    return [p - q for p, q in zip(a, b)]
+class Kind:
+    """What lipids of a kind keep when parts of them turn about bonds, which are pairs of atoms."""
 
+    def __init__(self, bonds, atoms):
+        self.near = [sorted({a for bond in bonds if i in bond for a in bond if a != i}) for i in range(atoms)]
+        two = {tuple(sorted((i, k))) for j in range(atoms) for i in self.near[j] for k in self.near[j] if i != k}
+        self.lengths = sorted({tuple(sorted(bond)) for bond in bonds} | two)
+        self.centres = [i for i in range(atoms) if len(self.near[i]) > 2]
+        self.torsions = [(min(set(self.near[i]) - {j}), i, j, min(set(self.near[j]) - {i})) for i, j in bonds
+                         if len(self.near[i]) > 1 and len(self.near[j]) > 1]
 
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
+    def kept(self, lipid):
+        """Lengths of bonds and of the third sides of their angles, and on which side of its neighbors an atom is."""
+        volumes = [dot(cross(*(minus(lipid[k], lipid[i]) for k in self.near[i][:2])), minus(lipid[self.near[i][2]], lipid[i]))
+                   for i in self.centres]
+        return [math.dist(lipid[i], lipid[j]) for i, j in self.lengths] + [volume / 10 for volume in volumes]
 
+    def angles(self, lipid):
+        return [dihedral(*(lipid[i] for i in torsion)) for torsion in self.torsions]
 
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def shape_of(lipid):
-    """Distances within a lipid, and its handedness: what rigid motion keeps."""
-    pairs = [(0, 1), (1, 2), (2, 3), (0, 7), (0, 11), (7, 11), (2, 9), (4, 8)]
-    lengths = [math.dist(lipid[a], lipid[b]) for a, b in pairs]
-    return lengths + [dot(cross(minus(lipid[4], lipid[0]), minus(lipid[8], lipid[0])), minus(lipid[2], lipid[0])) / 100]
+    def compare(self, lipids, patch):
+        """How far lipids are from what is kept in one of the patch, and torsions (degrees) from the nearest of the patch."""
+        kept, angles = [self.kept(lipid) for lipid in patch], list(zip(*(self.angles(lipid) for lipid in patch)))
+        off = max(min(max(abs(a - b) for a, b in zip(mine, theirs)) for theirs in kept) for mine in map(self.kept, lipids))
+        turned = max(min(abs(math.remainder(angle - b, 2 * math.pi)) for b in seen)
+                     for lipid in lipids for angle, seen in zip(self.angles(lipid), angles))
+        return off, math.degrees(turned)
 
 
 code, output = lammps(open("in.patch").read(), args=["-var", "steps", 800 if not LONG else 5000])
@@ -132,12 +144,9 @@ for ranks in (1, 2) if MPIEXEC else (1,):
     claim("    the progress is shown", "relaxation 4 of 4" in output)
 molecules, bonds = read_data("ball1.data")
 count = len(molecules)
-shapes = sorted(shape_of(lipid) for lipid in patch)
-off = 0.0
-for lipid in molecules[::7]:
-    mine = shape_of(lipid)
-    off = max(off, min(max(abs(a - b) for a, b in zip(mine, shape)) for shape in shapes))
-claim("    every lipid has the shape of one of the patch, not mirrored", off < 0.01, off)
+off, turned = Kind([bond[1:] for bond in make_patch.BONDS], BEADS).compare(molecules, patch)
+claim("    every lipid has lengths, angles and handedness of one in the patch", off < 0.01, off)
+claim("    torsions within 15 degrees of one in the patch", turned < 15.2, turned)
 outer = numbers_of(output, "outer")[0] if not MPIEXEC else int(first["top"].split("DPPC")[1].split()[0])
 wrong = [m for m, lipid in enumerate(molecules) if (math.hypot(*lipid[0]) > math.hypot(*lipid[7])) != (m < outer)]
 claim("    heads outward on both leaflets, tails inward", not wrong, len(wrong))
@@ -152,6 +161,24 @@ for name, part in (("outer", molecules[:outer]), ("inner", molecules[outer:])):
     number, wanted = numbers_of(output, name)
     claim("    as many as the area asks for", abs(number - wanted) < 0.51, (number, wanted))
 claim("    at most 3 % of lipids in a clash", clashing(output) < 0.03, clashing(output))
+
+# === Lipids with hydrogens, which must bend
+
+code, output = lammps(atom_patch.start())
+claim("a patch with all atoms", code == 0 and os.path.exists("atoms.dump"), output[-300:] if code else "")
+atoms = atom_patch.finish()
+kind = Kind(atom_patch.BONDS, atom_patch.ATOMS)
+for shape, box in (("plane 8 10", "-30 30 -30 30 -60 60"),) + ((("sphere 3 45 interpolate yes", BOX),) if LONG else ()):
+    output = run(script(shape, box, "patch atoms.pdb psf atoms.psf overwrite yes out atoms_built"))
+    claim(f"all atoms, {shape}: rigid lipids do not get out of each other's way, and bend", "bending 1 of 6" in output,
+          report(output, "relaxation 4 of 4"))
+    claim("    at most 3 % in a clash, no pair closer than 1.5 A",
+          clashing(output) < 0.03 and closest(output) > 1.5, (clashing(output), closest(output)))
+    claim("    no bonds through rings", "0 left" in report(output, "bonds through rings"), report(output, "bonds through rings"))
+    molecules, _ = read_data("atoms_built.data")
+    off, turned = kind.compare(molecules[::1 if len(molecules) < 200 else 7], atoms)
+    claim("    every lipid has lengths, angles and handedness of one in the patch", off < 0.01, off)
+    claim("    torsions within 15 degrees of one in the patch", turned < 15.2, turned)
 
 # === A flat membrane that is no multiple of the patch: beads by height as in the patch
 
