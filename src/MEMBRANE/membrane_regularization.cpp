@@ -253,7 +253,7 @@ void Membrane_NS::hold_dipoles(const FaceGroup &group, const double (*x)[3],
 {
   constexpr double FOUR_PI = 4.0 * M_PI;
   int c = -1;
-  Vector3d d = Vector3d::Zero(), middle = Vector3d::Zero();
+  Vector3d d, middle;
   double stiffness = 0.0, part = 0.0, per_area = 0.0;
   for (int s = 0; s < group.nfaces; ++s) {
     const size_t slot = group.first_slot + s;
