@@ -2,9 +2,9 @@
 """Undulations of a sphere of few points at low temperature, exactly: what unittest/scripts/test_spectrum_sphere.py
 compares simulations with.
 
-  bench/sphere_response.py [--lmp build/lmp] [--level 2] [--lmax 4] [--c0 0] [--terms "regularize 0.01"]
+  bench/sphere_response.py [--lmp build/lmp] [--level 2] [--mesh FILE] [--lmax 4] [--c0 0] [--terms "regularize 0.01"]
 
-A sphere is relaxed, the Hessian H of its energy and the derivatives a of each amplitude u_lm of compute hd/modes taken by
+A sphere, an icosphere or that of a file, is relaxed, the Hessian H of its energy and the derivatives a of each amplitude u_lm of compute hd/modes taken by
 differences, and the mean square of harmonic undulations is <u_lm^2> = kT a.H^-1 a. Printed for each l, the mean over
 m: that for kT = kc = 1, and its ratio to 1/((l-1)(l+2)(l(l+1)+s)), theory for a continuous sphere with R = 1 and
 s = tension/kc - 2 c0 + c0^2/2. 642 points up to l = 8 take some minutes."""
@@ -24,7 +24,7 @@ units           lj
 atom_style      membrane_cp
 region          box block -3 3 -3 3 -3 3
 create_box      1 box angle/types 1
-create_membrane 1 sphere {level} 1.0 interpolate yes
+create_membrane 1 {shape}
 special_bonds   lj/coul 1 1 1
 pair_style      helfrich
 pair_coeff      1 1 1.0 {c0} volume 1000.0 {volume!r} {terms}
@@ -106,11 +106,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lmp", default=os.path.join(HERE, "..", "build", "lmp"))
     parser.add_argument("--level", type=int, default=2)
+    parser.add_argument("--mesh", help="of radius 1, in place of an icosphere")
     parser.add_argument("--lmax", type=int, default=4)
     parser.add_argument("--c0", type=float, default=0.0)
     parser.add_argument("--terms", default="regularize 0.01")
     options = parser.parse_args()
-    sphere = SPHERE.format(level=options.level, c0=options.c0, terms=options.terms, volume=4 * math.pi / 3)
+    shape = f"file {os.path.abspath(options.mesh)}" if options.mesh else f"sphere {options.level} 1.0 interpolate yes"
+    sphere = SPHERE.format(shape=shape, c0=options.c0, terms=options.terms, volume=4 * math.pi / 3)
     columns = [f"c_m[{row}][4]" for row in range(1, (options.lmax + 1) ** 2 + 1)]
 
     with tempfile.TemporaryDirectory() as folder:
