@@ -79,6 +79,12 @@ bool BoundCurvature::has_director(int type) const
   return found != coupling.end() && found->second.has_director();
 }
 
+double BoundCurvature::area(int type) const
+{
+  const auto found = coupling.find(type);
+  return found == coupling.end() ? 0.0 : found->second.area;
+}
+
 double BoundCurvature::radius() const
 {
   double most = 0.0;

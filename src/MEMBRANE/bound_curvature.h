@@ -34,6 +34,8 @@ class BoundCurvature : protected Pointers {
   int parse(int narg, char **arg);
   bool any() const { return !coupling.empty(); }
   bool has_director(int type) const;
+  /// Of the bilayer that a particle of this type stands in place of; 0 without footprint.
+  double area(int type) const;
   /// The largest radius; 0 without any.
   double radius() const;
 

@@ -357,6 +357,11 @@ std::vector<int> FixHDBound::owned_faces() const
   return faces;
 }
 
+double FixHDBound::footprint_area(int i) const
+{
+  return sites[i].bound() ? curvature.area(atom->type[i]) : 0.0;
+}
+
 FixHDBound *FixHDBound::named(LAMMPS *lmp, const std::string &id, const std::string &user)
 {
   auto *fix = dynamic_cast<FixHDBound *>(lmp->modify->get_fix_by_id(id));

@@ -96,6 +96,8 @@ class FixHDBound : public Fix {
   bool is_overdamped() const { return diffusion > 0.0; }
   /// The site of an owned atom of the group.
   const BoundSite &site(int i) const { return sites[i]; }
+  /// The area that the footprint of an owned atom takes of its membrane.
+  double footprint_area(int i) const;
   LocalSurface &surface() const { return *limit; }
   /// Owned atoms that are bound, and owned faces of the membranes of the membrane group.
   const std::vector<int> &bound_atoms() const { return members; }

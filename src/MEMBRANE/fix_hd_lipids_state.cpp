@@ -22,7 +22,10 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hd_bound.h"
 #include "helfrich_model.h"
+#include "mesh_gather.h"
+#include "modify.h"
 
 #include <algorithm>
 #include <numeric>
@@ -55,6 +58,58 @@ std::array<bigint, 3> FixHDLipids::corners_of(int face, const std::vector<bigint
   std::array<bigint, 3> sorted = {origins[corners[0]], origins[corners[1]], origins[corners[2]]};
   std::sort(sorted.begin(), sorted.end());
   return sorted;
+}
+
+/* ----------------------------------------------------------------------
+   areas of faces by leaflet, without what footprints of bound particles take: of the face that a particle stands on,
+   and once this is full of those around it
+------------------------------------------------------------------------- */
+
+std::array<std::vector<double>, 2> FixHDLipids::free_areas() const
+{
+  struct Taken {
+    tagint tag;
+    int face;
+    double area;
+  };
+  std::vector<Taken> mine;
+  for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {
+    const auto *bound = dynamic_cast<FixHDBound *>(fix);
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & fix->groupbit) && bound->footprint_area(i) > 0.0)
+        mine.push_back({atom->tag[i], bound->site(i).point.face, bound->footprint_area(i)});
+  }
+  std::vector<Taken> taken = gather_all(mine, world);
+  std::sort(taken.begin(), taken.end(), [](const Taken &a, const Taken &b) { return a.tag < b.tag; });
+
+  const auto &topology = mesh->topology();
+  const int nfaces = topology.num_faces();
+  std::array<std::vector<double>, 2> areas;
+  for (int l = 0; l < 2; ++l) {
+    for (int f = 0; f < nfaces; ++f) areas[l].push_back(shapes[f].area[l]);
+    std::vector<int> reached(nfaces, -1);
+    for (size_t p = 0; p < taken.size(); ++p) {
+      double left = taken[p].area;
+      std::vector<int> around = {taken[p].face};
+      reached[taken[p].face] = static_cast<int>(p);
+      for (size_t i = 0; i < around.size() && left > 0.0; ++i) {
+        double &area = areas[l][around[i]];
+        const double part = std::min(left, area);
+        left -= part;
+        area -= part;
+        for (int k = 0; k < 3; ++k) {
+          const int beyond = topology.neighbor(around[i], k);
+          if (beyond < 0 || reached[beyond] == static_cast<int>(p)) continue;
+          reached[beyond] = static_cast<int>(p);
+          around.push_back(beyond);
+        }
+      }
+      if (left > 0.0)
+        error->all(FLERR, "Fix hd/lipids: the footprints of bound particles leave no room for lipids on the membrane of atom {}",
+                   taken[p].tag);
+    }
+  }
+  return areas;
 }
 
 /* ----------------------------------------------------------------------
@@ -91,6 +146,7 @@ void FixHDLipids::take_up()
 
   std::array<std::vector<int>, 2> numbers;    // [faces][kinds], of new membranes
   std::array<std::vector<int>, 2> totals;
+  const auto areas = free_areas();
   for (int l = 0; l < 2; ++l) {
     numbers[l].assign(static_cast<size_t>(nfaces) * nkinds, 0);
     totals[l].assign(nfaces, 0);
@@ -105,7 +161,7 @@ void FixHDLipids::take_up()
           const auto &leaflets = composition->of(types[v]);
           const auto &leaflet = l == 0 ? leaflets.outer : leaflets.inner;
           for (const auto &[kind, fraction] : leaflet.parts)
-            wanted[i * nkinds + kind] += fraction * shapes[faces[i]].area[l] / leaflet.area(library) / 3.0;
+            wanted[i * nkinds + kind] += fraction * areas[l][faces[i]] / leaflet.area(library) / 3.0;
         }
       const std::vector<int> dealt = Membrane_NS::fill_faces(wanted, nkinds);
       for (size_t i = 0; i < faces.size(); ++i)

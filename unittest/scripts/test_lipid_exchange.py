@@ -192,6 +192,50 @@ for text, script in {
     line = error_of(script + "run 5\n")
     claim(f"error: ... {text} ...", text in line, "" if text in line else line)
 
+# === Bound particles make room for themselves
+
+CROWDED = """
+units           lj
+atom_style      membrane_cp
+region          box block -8 8 -8 8 -8 8
+create_box      2 box angle/types 1
+create_membrane 1 sphere 2 3.5 interpolate yes
+set             type 1*2 mass 1.0
+group           mem type 1
+{bound}
+pair_style      hybrid/overlay helfrich zero 1.0
+pair_coeff      1 1 helfrich 20.0 0.0 regularize 10 lipids NULL outer A 3 B 1 inner A 1 library A 0.04 0.0 library B 0.06 0.0
+pair_coeff      * * zero
+neighbor        0.5 bin
+fix             1 mem hd/langevin 1.0 1.0 1.0 4711
+{hold}
+fix             x mem hd/lipids 10 1.0 99 global 1
+compute         n mem membrane/lipids
+compute         l mem membrane/lipids outer A outer B inner A
+compute         e mem reduce min c_l[1] c_l[3] inputs local
+thermo_style    custom step c_n[1] c_n[2] c_n[3] c_n[4] c_e[1] c_e[2]
+run             0
+"""
+FOOTPRINTS = 20, 1.3
+hold = f"group points type 2\nfix p points nve\nfix b points hd/bind mem footprint 2 {FOOTPRINTS[1]} 30.0 0.0 1.0"
+
+
+def area_of_lipids(row):
+    return 0.04 * row["c_n[1]"] + 0.06 * row["c_n[2]"], 0.04 * row["c_n[3]"]
+
+
+free = thermo(run(CROWDED.format(bound="", hold="")))[-1]
+for ranks in RANKS[:2]:
+    row = thermo(run(CROWDED.format(bound=f"create_bound {FOOTPRINTS[0]} 2 mem 4711", hold=hold), ranks=ranks))[-1]
+    less = [a - b for a, b in zip(area_of_lipids(free), area_of_lipids(row))]
+    claim(f"{ranks} rank(s): lipids and footprints together have the area of each leaflet, to a lipid of each kind",
+          all(abs(area - FOOTPRINTS[0] * FOOTPRINTS[1]) < 0.1 for area in less), less)
+    claim("    in the proportions of the composition", abs(row["c_n[1]"] - 3 * row["c_n[2]"]) <= 4, (row["c_n[1]"], row["c_n[2]"]))
+    claim("    and faces under particles have none", free["c_e[1]"] > 0 and free["c_e[2]"] > 0 and row["c_e[1]"] == row["c_e[2]"] == 0,
+          (free["c_e[1]"], row["c_e[1]"]))
+message = error_of(CROWDED.format(bound="create_bound 40 2 mem 4711", hold=hold.replace("1.3", "5.0")))
+claim("error: footprints that take all of a membrane", "leave no room for lipids on the membrane of atom" in message, message)
+
 if LONG:
     rows = thermo(run(start(moves="diffuse 50 global 40") + "run 5000\n"))
     claim("numbers stay over 1e7 moves", all(numbers(row) == numbers(rows[0]) for row in rows) and
