@@ -31,7 +31,7 @@ using Eigen::Vector3d;
 
 static constexpr double LEAST_STRETCH = 0.1;    // of lengths at the heads: below, lipids have no room
 static constexpr int FIRST_STEPS = 100, STEPS = 50, LAST_STEPS = 150, ROUNDS = 4, TRIALS = 200;
-static constexpr int BENDS = 6, BEND_TRIALS = 1000;
+static constexpr int BENDS = 12, ENOUGH_BENDS = 3, BEND_TRIALS = 1000;    // enough if nothing clashes
 static constexpr double HURTS = 0.04;           // energy of a lipid that Monte Carlo is for
 static constexpr double TEMPERATURE = 0.005, SLIDE = 1.5;
 static constexpr size_t MOST_NAMED = 5;
@@ -171,7 +171,7 @@ void relax(LipidCrowd &crowd, const Vector3d &origin, BuildReport &report)
 
   // what rigid lipids cannot do
 
-  for (int round = 1; round <= BENDS; ++round) {
+  for (int round = 1; round <= BENDS && (round <= ENOUGH_BENDS || state.lipids > 0); ++round) {
     const int bent = crowd.bend(HURTS, BEND_TRIALS, round < BENDS ? TEMPERATURE : 0.0, BENDING + round);
     if (!bent) break;
     energy = crowd.relax(STEPS);
