@@ -168,7 +168,7 @@ code, output = lammps(atom_patch.start())
 claim("a patch with all atoms", code == 0 and os.path.exists("atoms.dump"), output[-300:] if code else "")
 atoms = atom_patch.finish()
 kind = Kind(atom_patch.BONDS, atom_patch.ATOMS)
-for shape, box in (("plane 8 10", "-30 30 -30 30 -60 60"),) + ((("sphere 3 45 interpolate yes", BOX),) if LONG else ()):
+for shape, box in (("plane 8 10", "-30 30 -30 30 -60 60"),) + (((SPHERE, BOX),) if LONG else ()):
     output = run(script(shape, box, "patch atoms.pdb psf atoms.psf overwrite yes out atoms_built"))
     claim(f"all atoms, {shape}: rigid lipids do not get out of each other's way, and bend", "bending 1 of 6" in output,
           report(output, "relaxation 4 of 4"))
