@@ -117,7 +117,7 @@ class FixHDLipids : public Fix {
   void find_membranes();
   std::string words_of(int type) const;
   void take_up();
-  std::array<std::vector<double>, 2> free_areas() const;
+  std::array<std::vector<double>, 2> free_areas(const std::vector<char> &filling) const;
   void start(Membrane_NS::FaceLipids);
   void keep();
   void follow_origins();

@@ -61,11 +61,11 @@ std::array<bigint, 3> FixHDLipids::corners_of(int face, const std::vector<bigint
 }
 
 /* ----------------------------------------------------------------------
-   areas of faces by leaflet, without what footprints of bound particles take: of the face that a particle stands on,
+   areas of faces by leaflet, without what footprints of bound particles take on membranes that are being filled: of the face that a particle stands on,
    and once this is full of those around it
 ------------------------------------------------------------------------- */
 
-std::array<std::vector<double>, 2> FixHDLipids::free_areas() const
+std::array<std::vector<double>, 2> FixHDLipids::free_areas(const std::vector<char> &filling) const
 {
   struct Taken {
     tagint tag;
@@ -89,6 +89,8 @@ std::array<std::vector<double>, 2> FixHDLipids::free_areas() const
     for (int f = 0; f < nfaces; ++f) areas[l].push_back(shapes[f].area[l]);
     std::vector<int> reached(nfaces, -1);
     for (size_t p = 0; p < taken.size(); ++p) {
+      const int m = membrane_of[taken[p].face];
+      if (!takes_part[m] || !filling[m]) continue;
       double left = taken[p].area;
       std::vector<int> around = {taken[p].face};
       reached[taken[p].face] = static_cast<int>(p);
@@ -146,7 +148,7 @@ void FixHDLipids::take_up()
 
   std::array<std::vector<int>, 2> numbers;    // [faces][kinds], of new membranes
   std::array<std::vector<int>, 2> totals;
-  const auto areas = free_areas();
+  const auto areas = free_areas(anew);
   for (int l = 0; l < 2; ++l) {
     numbers[l].assign(static_cast<size_t>(nfaces) * nkinds, 0);
     totals[l].assign(nfaces, 0);
