@@ -343,12 +343,12 @@ void FixSRDMesh::wrap()
 
 bool FixSRDMesh::any_strayed()
 {
-  int mine = 0, any;
+  constexpr int BLOCK = SRDGrid::BLOCK;
+  int which[BLOCK], mine = 0, any;
   const double ahead = membranes_join ? 0.5 * update->dt : 0.0;
-  for (int i = solvent.first(); i < solvent.last() && !mine; ++i) {
-    double x[3];
-    for (int k = 0; k < 3; ++k) x[k] = atom->x[i][k] + ahead * atom->v[i][k];
-    mine = cells->grid.strayed(x) && solvent.has(i);
+  for (int first = solvent.first(); first < solvent.last() && !mine; first += BLOCK) {
+    const int n = cells->grid.find_strayed(atom->x[first], atom->v[first], ahead, MIN(BLOCK, solvent.last() - first), which);
+    for (int j = 0; j < n && !mine; ++j) mine = solvent.has(first + which[j]);
   }
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
   return any;

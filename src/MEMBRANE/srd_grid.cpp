@@ -294,15 +294,26 @@ int SRDGrid::cell(const double *x, double *offset) const
   return cell_at(t);
 }
 
-bool SRDGrid::strayed(const double *x) const
+int SRDGrid::find_strayed(const double *x, const double *v, double ahead, int count, int *which) const
 {
-  double t[3];
-  grid_coordinates(x, t);
-  for (int k = 0; k < 3; ++k) {
-    const double s = t[k] + shift[k];
-    if (!(s >= stray_lo[k] * n[k] && s <= stray_hi[k] * n[k])) return true;
+  const double corner0 = corner[0], corner1 = corner[1], corner2 = corner[2];
+  const double m0 = inverse[0], m1 = inverse[1], m2 = inverse[2], m3 = inverse[3], m4 = inverse[4],
+               m5 = inverse[5];
+  const double lo0 = stray_lo[0] * n[0], lo1 = stray_lo[1] * n[1], lo2 = stray_lo[2] * n[2];
+  const double hi0 = stray_hi[0] * n[0], hi1 = stray_hi[1] * n[1], hi2 = stray_hi[2] * n[2];
+  int strayed[BLOCK], found = 0;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const double d0 = x[3 * i] + ahead * v[3 * i] - corner0, d1 = x[3 * i + 1] + ahead * v[3 * i + 1] - corner1,
+                 d2 = x[3 * i + 2] + ahead * v[3 * i + 2] - corner2;
+    const double s0 = m0 * d0 + m5 * d1 + m4 * d2, s1 = m1 * d1 + m3 * d2, s2 = m2 * d2;
+    strayed[i] = !((s0 >= lo0) & (s0 <= hi0) & (s1 >= lo1) & (s1 <= hi1) & (s2 >= lo2) & (s2 <= hi2));
   }
-  return false;
+  for (int i = 0; i < count; ++i) {
+    which[found] = i;
+    found += strayed[i];
+  }
+  return found;
 }
 
 int SRDGrid::find_outside(const double *x, int count, int *which) const

@@ -84,9 +84,10 @@ class SRDGrid : protected Pointers {
     for (int k = 0; k < 3; ++k)
       times[k] = periodic[k] ? static_cast<int>(std::floor(std::floor(t[k]) / n[k])) : 0;
   }
-  /// Whether a position is further from the sub-domain than the reach (or half the box).
-  bool strayed(const double *x) const;
   static constexpr int BLOCK = 512;
+  /// Which of up to BLOCK positions x + ahead v are further from the sub-domain than the reach (or half the box);
+  /// returns how many.
+  int find_strayed(const double *x, const double *v, double ahead, int count, int *which) const;
   /// Which of up to BLOCK positions are beyond the faces of the box, or may be if that is tilted;
   /// returns how many.
   int find_outside(const double *x, int count, int *which) const;
