@@ -91,52 +91,44 @@ void ModalMass::find_decay()
 }
 
 /* ----------------------------------------------------------------------
-   Sums over vertices of psi_ij f_i, in blocks of rows that stay in cache, and then those of the modes
+   Sums over vertices of psi_ij f_i, and then those of the modes. Modes are read once and in order, ROWS rows at a time:
+   the sums are read and written as often, from the cache next to the core
 ------------------------------------------------------------------------- */
 
-template <int WIDTH>
-static inline void add_products(const Lane *psi, int stride, const double (*force)[3], int count, Lane *x, Lane *y,
-                                Lane *z)
+template <int ROWS>
+static inline void add_products(const Lane *psi, int blocks, const double *const (&f)[2], Lane *x, Lane *y, Lane *z)
 {
-  Lane sx[WIDTH], sy[WIDTH], sz[WIDTH];
-  for (int w = 0; w < WIDTH; ++w) {
-    sx[w] = x[w];
-    sy[w] = y[w];
-    sz[w] = z[w];
-  }
-  for (int i = 0; i < count; ++i, psi += stride)
-    for (int w = 0; w < WIDTH; ++w) {
-      sx[w] += psi[w] * force[i][0];
-      sy[w] += psi[w] * force[i][1];
-      sz[w] += psi[w] * force[i][2];
+  double force[ROWS][3];
+  for (int i = 0; i < ROWS; ++i) std::copy_n(f[i], 3, force[i]);
+  for (int j = 0; j < blocks; ++j) {
+    Lane sx = x[j], sy = y[j], sz = z[j];
+    for (int i = 0; i < ROWS; ++i) {
+      const Lane here = psi[i * blocks + j];
+      sx += here * force[i][0];
+      sy += here * force[i][1];
+      sz += here * force[i][2];
     }
-  for (int w = 0; w < WIDTH; ++w) {
-    x[w] = sx[w];
-    y[w] = sy[w];
-    z[w] = sz[w];
+    x[j] = sx;
+    y[j] = sy;
+    z[j] = sz;
   }
 }
 
 VectorXd ModalMass::project(const VertexField &f) const
 {
-  constexpr int ROWS = 32;
   size_t total = 0;
   for (const Membrane &membrane : membranes_) total += membrane.modes->functions / LANES;
   std::vector<Lane> sums(3 * total, Lane{});
   size_t place = 0;
   for (const Membrane &membrane : membranes_) {
     const int blocks = membrane.modes->functions / LANES;
-    const auto rows = static_cast<int>(membrane.local.size());
+    const size_t rows = membrane.local.size();
     Lane *x = &sums[place], *y = x + blocks, *z = y + blocks;
-    double force[ROWS][3];
-    for (int first = 0; first < rows; first += ROWS) {
-      const int count = std::min(ROWS, rows - first);
-      for (int i = 0; i < count; ++i) std::copy_n(f[membrane.local[first + i]].c, 3, force[i]);
-      const Lane *psi = &membrane.psi[(size_t) first * blocks];
-      int j = 0;
-      for (; j + 2 <= blocks; j += 2) add_products<2>(psi + j, blocks, force, count, x + j, y + j, z + j);
-      if (j < blocks) add_products<1>(psi + j, blocks, force, count, x + j, y + j, z + j);
-    }
+    const Lane *psi = membrane.psi.data();
+    size_t i = 0;
+    for (; i + 2 <= rows; i += 2, psi += 2 * blocks)
+      add_products<2>(psi, blocks, {f[membrane.local[i]].c, f[membrane.local[i + 1]].c}, x, y, z);
+    if (i < rows) add_products<1>(psi, blocks, {f[membrane.local[i]].c, nullptr}, x, y, z);
     place += 3 * blocks;
   }
   VectorXd all(3 * total * LANES), a(count_);

@@ -140,7 +140,7 @@ NAME = "{kind}, {plates}, M = {M}, {angle} degrees, mean free path {dt}"
 THIN = dict(M=5, angle=130, dt=0.1, H=6, push=0.03, speed=0.6)
 DENSE = THIN | dict(M=10)
 FLOWS = [("walls", 1000.0, THIN), ("walls", 500.0, DENSE), ("membranes", 300.0, DENSE),
-         ("walls", 2000.0, dict(M=10, angle=90, dt=1.0, H=12, push=0.0025, speed=0.6))]
+         ("walls", 5000.0, dict(M=10, angle=90, dt=1.0, H=12, push=0.0025, speed=0.6))]
 if not LONG:
     FLOWS = [("walls", 200.0, THIN), ("membranes", 50.0, THIN)]
 

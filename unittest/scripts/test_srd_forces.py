@@ -1,6 +1,8 @@
 """Forces on solvent atoms are felt, of whatever style; putting solvent back happens at steps of its own."""
 
-from lammps_claims import MPIEXEC, claim, finish, run, thermo
+import subprocess
+
+from lammps_claims import LMP, MPIEXEC, claim, finish, run, thermo
 
 RANKS = (1, 2) if MPIEXEC else (1,)
 
@@ -45,6 +47,45 @@ for kind, atoms, style in (
         claim(f"{kind} forces on {ranks} rank(s) move solvent, and its energy is kept",
               first["c_k"] == 0 and last["c_k"] > 0.01 * first["v_e"] > 0 and drift < 0.003,
               (first["v_e"], last["v_e"], last["c_k"], drift))
+
+# === Kspace styles, where LAMMPS has them: ions in solvent, between which nothing else acts, or a pair style, too
+
+IONS = """
+units           lj
+atom_style      hybrid membrane_cp faces 1 charge
+region          box block -3 3 -3 3 -3 3
+create_box      3 box angle/types 1
+create_membrane 1 sphere 1 1.0 mass 50
+create_atoms    2 single 2.0 2.0 2.0
+create_atoms    2 single 2.4 2.0 2.0
+create_atoms    2 single -2.4 2.3 1.0
+create_atoms    2 single -2.6 2.3 2.2
+set             type 2 mass 1.0 charge 1.0
+mass            3 1.0
+set             atom 45*46 charge -1.0
+group           solvent type 2
+group           membrane type 1
+pair_style      hybrid helfrich coul/long 2.0
+pair_coeff      1 1 helfrich 20.0 0.0
+pair_coeff      * 2*3 none
+pair_coeff      {ions} {ions} coul/long
+kspace_style    ewald 1e-6
+fix             i membrane hd/nve
+fix             s solvent srd/mesh 1000 membrane 1.0 1.0 4711 shift yes 9127 measure no velocity keep
+compute         k solvent ke
+variable        e equal ecoul+elong
+thermo_style    custom step ecoul elong v_e c_k
+thermo_modify   norm no format float %.15g
+timestep        0.001
+run             200
+"""
+has_kspace = "ewald" in subprocess.run([LMP, "-h"], capture_output=True, text=True).stdout.split()
+for pairs, ions in (("none", "3"), ("coul/long", "2*3")) if has_kspace else ():
+    for ranks in RANKS:
+        first, last = thermo(run(IONS.format(ions=ions), ranks=ranks))
+        drift = abs(last["v_e"] + last["c_k"] - first["v_e"] - first["c_k"]) / last["c_k"]
+        claim(f"kspace forces (pair {pairs}) on {ranks} rank(s) move solvent, and its energy is kept",
+              first["c_k"] == 0 and last["c_k"] > 1e-3 and drift < 0.003, (first["v_e"], last["v_e"], last["c_k"], drift))
 
 # === Solvent that something carried through the membrane is put back at the same step, whenever output looks
 
