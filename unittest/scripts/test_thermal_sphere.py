@@ -115,8 +115,11 @@ if LONG:
                 growth = 1 + 3 / (4 * math.pi * inverse) * math.log(2 ** (level - 3))    # beyond 642 points
                 compare_with_theory(f"{10 * 4 ** level + 2} points, kc = {inverse} kT, s = {s}", power, 0.008, s, growth)
     for modulus in ("0.5", "2.0"):
-        compare(f"regularize {modulus} in place of 1", coarse,
-                means(*vesicle(SAMPLING, LENGTH, level=2, dt=0.3, modulus=modulus)))
+        other = means(*vesicle(SAMPLING, LENGTH, level=2, dt=0.3, modulus=modulus))
+        bending = [mean_and_error(scene["bending"])[0] for scene in (coarse, other)]
+        compare(f"regularize {modulus} in place of 1", {key: coarse[key] for key in coarse if key != "bending"}, other)
+        # most of it is that of waves at the limit of the mesh, which are not free of what keeps faces in shape
+        claim(f"regularize {modulus} in place of 1: bending to 1 %", abs(bending[1] / bending[0] - 1) < 0.01, bending)
     for mass, dt, equilibrate in (("lumped", 0.008, 4000), ("vertex", 0.003, 8000)):
         slow = vesicle(f"hd/langevin {{kT}} {{kT}} 0.1 4712 mass {mass}", 400000, level=2, dt=dt, every=10, equilibrate=equilibrate)
         compare(f"mass sampling and {mass} agree", coarse, means(*slow))
