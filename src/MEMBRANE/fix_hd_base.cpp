@@ -30,6 +30,7 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -160,6 +161,14 @@ void FixHDBase::setup(int)
   if (modes() && modes()->has_friction() && modes()->friction.empty()) find_friction();
   accelerate();
   forces_due = true;
+
+  // modes move many control points alike: by more than an edge of a fine mesh, and still little for the shortest wave
+
+  for (int m = 0; modes() && m < static_cast<int>(modes()->now->membranes.size()); ++m) {
+    const auto &membrane = modes()->now->membranes[m];
+    const double most = *std::max_element(membrane.wave_number.begin(), membrane.wave_number.end());
+    if (most > 0.0) most_drift = MAX(most_drift, MOST_DRIFT * membrane.length / most);
+  }
 
   // r-RESPA has several timesteps: no limit is known for it
 
@@ -369,7 +378,8 @@ void FixHDBase::report_runaway(tagint id_of_point)
              "Fix {}: control point {} moved further than {} in one step: {}; "
              "hd_timestep finds the limit precisely",
              style, id_of_point,
-             sampling() ? "a quarter of a membrane's radius" : fmt::format("{} of an edge", MOST_DRIFT), reason);
+             sampling() ? "a quarter of a membrane's radius"
+                        : fmt::format("{} of an edge{}", MOST_DRIFT, modes() ? ", and of 1/q of the shortest wave," : ""), reason);
 }
 
 // a mesh that has lost its shape is stable for shorter timesteps only

@@ -204,6 +204,17 @@ straight = vesicle("fix 1 all hd/nve modes sphere min 2 max 4", "hd_velocity all
 ends = [between[-1]["f_1[1][4]"], straight[-1]["f_1[1][4]"]]
 claim("modes go on after reset_atoms id, replicate and displace_atoms", abs(ends[0] - ends[1]) < 1e-9 * abs(ends[1]), ends)
 
+# steps are short for the waves, not for edges of 0.06 to 0.08
+
+rows = vesicle("fix 1 all hd/brownian 1.0 4711 modes sphere min 2 max 3 relax eta 1.0",
+               "timestep 0.0005\ncompute x all property/atom x y z\ncompute m all reduce max c_x[1] c_x[2] c_x[3]\n"
+               "thermo_style custom step c_m[1] c_m[2] c_m[3]\nthermo 1\nrun 100", level=4)
+most = max(abs(now[f"c_m[{k}]"] - before[f"c_m[{k}]"]) for before, now in zip(rows, rows[1:]) for k in (1, 2, 3))
+claim("modes may move more than a quarter of an edge in a step", len(rows) == 101 and most > 0.02, most)
+line = error_of(VESICLE.format(fix="fix 1 all hd/brownian 1.0 4711 modes sphere min 2 max 3 relax eta 1.0",
+                               rest="timestep 0.1\nrun 300", level=2, terms="", more="", center="", processors=""))
+claim("not more than a quarter of 1/q: one clear line", "and of 1/q of the shortest wave" in line, line)
+
 # === What is refused
 
 MODES = "fix 1 all hd/langevin 1.0 1.0 1.0 4711 "
