@@ -110,7 +110,7 @@ for level in options.levels:
     # name, fix, timestep or None: a part of the limit, steps, steps between samples
     for name, fix, dt, steps, every in (
             ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 3.0} 4711 mass sampling", 1.0 if cold else 0.35 if level < 5 else 0.25, long, 1),
-            ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.8 if cold else 0.15 if level < 5 else 0.06, long, 1),
+            ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.8 if cold else 0.15 if level < 5 else 0.03, long, 1),
             ("lumped", f"hd/langevin {kT} {kT} 0.1 4711 mass lumped", None, longer, 10),
             ("vertex", f"hd/langevin {kT} {kT} 0.1 4711 mass vertex", None, longer, 10),
             ("lumped, hd/brownian", f"hd/brownian {kT} 4711 gamma_t {4 * math.pi / points} mass lumped", None, longer, 20),
