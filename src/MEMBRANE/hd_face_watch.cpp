@@ -36,7 +36,7 @@ static constexpr double LEAST_FRACTION = 0.25;
 static constexpr bigint PATIENCE = 10000;
 
 // of an edge in a step of mass sampling
-static constexpr double MOST_STRAIN = 0.5;
+static constexpr double MOST_STRAIN = 1.0;
 
 /* ---------------------------------------------------------------------- */
 

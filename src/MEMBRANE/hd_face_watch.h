@@ -44,7 +44,7 @@ class FaceWatch : protected Pointers {
   /// Remembers edges before a step, when ghosts are where they belong.
   void hold();
   /** Collective; when control points have moved since and ghosts have not: whether check() would warn of a face, or an
-      edge has changed by half of itself or more. Forth and back such a step is the same. */
+      edge has changed by its own length or more. Forth and back such a step is the same. */
   bool torn();
   double memory_usage() const;
 

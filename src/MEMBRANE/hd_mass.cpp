@@ -24,8 +24,10 @@
 #include "force.h"
 #include "group.h"
 #include "hd_mode_space.h"
+#include "helfrich_measure.h"
 #include "helfrich_model.h"
 #include "membrane_mass_kinds.h"
+#include "modify.h"
 #include "pair.h"
 #include "update.h"
 
@@ -40,6 +42,9 @@ using Membrane_NS::VertexField;
 // mass sampling: the reference is renewed when normals have turned by 40 degrees or so: at kc = 20 kT
 // those of a membrane in equilibrium turn by 12
 static constexpr double MOST_DISTANCE = 0.25;
+
+// or when the kT of the measure, which is a tension in it, is another by such a factor
+static constexpr double MOST_HEAT = 2.0;
 
 /* ---------------------------------------------------------------------- */
 
@@ -164,9 +169,27 @@ void HDMass::take_reference()
   int dim;
   auto *model = pair ? static_cast<HelfrichModel *>(pair->extract("model", dim)) : nullptr;
   if (!model) error->all(FLERR, "{} mass sampling is made of what pair_style helfrich resists: use it", user);
-  settings.reference->now =
-      std::make_shared<const Membrane_NS::StiffnessReference>(model->describe());
+  Membrane_NS::StiffnessReference reference = model->describe();
+  reference.measure = measured_kT();
+  settings.reference->now = std::make_shared<const Membrane_NS::StiffnessReference>(std::move(reference));
   ++settings.reference->renewals;
+}
+
+// of the fixes that sample control points of the group with the measure of their mesh; collective
+
+double HDMass::measured_kT()
+{
+  double kT = 0.0;
+  for (auto &fix : modify->get_fix_list()) {
+    int dim, mine = 0, any;
+    const auto *measure = static_cast<const HelfrichMeasure *>(fix->extract("measure", dim));
+    if (!measure || !measure->on) continue;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & measure->groupbit && atom->mask[i] & groupbit) mine = 1;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+    if (any) kT = MAX(kT, measure->kT);
+  }
+  return kT;
 }
 
 bool HDMass::renew()
@@ -184,13 +207,17 @@ bool HDMass::renew()
   const auto &reference = *settings.reference->now;
   for (size_t v = 0; v < all.size(); ++v)
     shape.points[v] = all[v].c[3] > 0.0 ? Eigen::Vector3d(all[v].c) : reference.shape.points[v];
-  const double distance = reference.distance(shape, mesh().topology());
-  if (!(distance > MOST_DISTANCE)) return false;
+  const double distance = reference.distance(shape, mesh().topology()), kT = measured_kT();
+  std::string reason;
+  if (distance > MOST_DISTANCE)
+    reason = fmt::format("the shape has left the reference (1 - cos of normals: {:.2g}), which is taken anew: what came "
+                         "before is equilibration, not sampling", distance);
+  else if (kT > MOST_HEAT * reference.measure || reference.measure > MOST_HEAT * kT)
+    reason = "the temperature has left that of the reference, which is taken anew";
+  else
+    return false;
   if (comm->me == 0)
-    utils::logmesg(lmp,
-                   "{} mass sampling: at step {} the shape has left the reference (1 - cos of normals: "
-                   "{:.2g}), which is taken anew: what came before is equilibration, not sampling\n",
-                   user, update->ntimestep, distance);
+    utils::logmesg(lmp, "{} mass sampling: at step {} {}\n", user, update->ntimestep, reason);
   take_reference();
   refresh();
   return true;
@@ -232,6 +259,7 @@ void HDMass::archive_reference(RestartArchive &file)
   for (auto *numbers : {&reference.kc, &reference.tension, &reference.shear, &reference.stretch})
     file(*numbers);
   file(reference.closed);
+  file(reference.measure);
   auto count = static_cast<int>(reference.totals.size());
   file(count);
   if (file.is_reading()) reference.totals.resize(file.ok() ? count : 0);

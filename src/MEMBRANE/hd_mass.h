@@ -88,6 +88,7 @@ class HDMass : protected Pointers {
 
   void check_masses();
   void take_reference();
+  double measured_kT();
   void archive_reference(RestartArchive &);
 };
 

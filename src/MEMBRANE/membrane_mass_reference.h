@@ -31,6 +31,7 @@ struct StiffnessReference {
   std::vector<double> shear;       ///< [faces] energy: modulus of regularize
   std::vector<double> stretch;     ///< [faces] energy/area: modulus of local area
   std::vector<char> closed;        ///< [components]
+  double measure = 0.0;            ///< kT of the measure of the mesh that is in the energy; 0 if there is none
 
   /// An energy stiffness/2 (sum over vertices of gradient . dq)^2: of totals of a membrane.
   struct Total {

@@ -41,6 +41,9 @@ struct Undulations {
 static constexpr Undulations CLOSED = {-2.0, 1.5}, CONTINUING = {0.0, 0.25};
 static constexpr double LEAST[] = {-2.2, -0.8};    // > -2 sqrt(t)
 
+// (3/4) kT ln A of a face is a tension as long as points do not move along the surface; of kT over its area
+static constexpr double MEASURE_TENSION = 0.75;
+
 // T = FACTOR sum over faces of shear (K_f/A_f + FLOOR a D_f/A_f): see the derivation
 
 static constexpr double SHEAR_FACTOR = 2.0, SHEAR_FLOOR = 1.0;
@@ -94,8 +97,9 @@ void SamplingMass::build_factors(const Topology &topology, const std::vector<dou
     const int c = topology.component(face[0]), open = reference.closed[c] ? 0 : 1;
     const double unit =
         4.0 * M_PI / areas.components[c] * (kc[face[0]] + kc[face[1]] + kc[face[2]]) / 3.0;
+    const double felt = reference.tension[f] + MEASURE_TENSION * reference.measure / areas.faces[f];
     tension[f] =
-        std::max(reference.tension[f], (LEAST[open] - (open ? CONTINUING : CLOSED).s) * unit);
+        std::max(felt, (LEAST[open] - (open ? CONTINUING : CLOSED).s) * unit);
   }
   const SparseMatrix k = cotangent_laplacian(reference.shape, topology,
                                              std::vector<double>(topology.num_faces(), 1.0));

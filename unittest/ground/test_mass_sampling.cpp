@@ -143,6 +143,33 @@ TEST(SamplingMass, ATotalAddsItsStiffness)
   EXPECT_LT((with.inverse() - expected).norm(), 1e-10 * expected.norm());
 }
 
+// each face of a sheet adds (3/4) kT/A_f |grad h|^2 A_f to h M h, twice the energy
+
+TEST(SamplingMass, TheMeasureIsATensionOfLongWaves)
+{
+  Sampled body(small_sheet(), TotalsOf::NONE);
+  StiffnessReference warm = *body.reference->now;
+  warm.measure = 0.2;
+  const double length = body.mesh.lattice(0, 0), q = 2.0 * M_PI / length;
+  VertexField v(body.size(), Vector4{}), p(body.size());
+  for (int i = 0; i < body.size(); ++i) v[i].c[2] = std::cos(q * body.mesh.points[body.part.vertices[i]].x());
+  double energy[2];
+  for (int hot = 0; hot < 2; ++hot) {
+    if (hot) body.reference->now = std::make_shared<const StiffnessReference>(warm);
+    MassOperator::Settings settings;
+    settings.kind = MassKind::SAMPLING;
+    settings.reference = body.reference;
+    settings.unit = UNIT;
+    make_mass({body.topology, body.part, body.masses, body.labels}, settings)->multiply(v, p);
+    energy[hot] = 0.0;
+    for (int i = 0; i < body.size(); ++i) energy[hot] += v[i].c[2] * p[i].c[2];
+  }
+  // edges are 1 long along x or lie at 60 degrees; the mean of |grad h|^2 is q^2/2 as q becomes small
+  const double slope = (4.0 * std::pow(std::sin(0.5 * q), 2) + 8.0 * std::pow(std::sin(0.25 * q), 2)) / 3.0;
+  const double faces = body.topology.num_faces();
+  EXPECT_NEAR(energy[1] - energy[0], 0.75 * warm.measure * faces * slope / UNIT, 1e-9 * energy[1]);
+}
+
 TEST(SamplingMass, NoiseHasTheInverseAsCovariance)
 {
   Sampled body(icosphere(0, 1.0), TotalsOf::VOLUME_AND_LENGTH);

@@ -59,7 +59,7 @@ claim("compute hd/temp reads the temperature of what moves, without rotations", 
       f"{mean:.5f} of 0.05")
 output = run(SCENE + LANGEVIN + "hd_timestep all\nrun 300\nhd_timestep all\n")
 found = [float(line.split()[-1]) for line in output.split("\n") if "recommended timestep" in line]
-claim("hd_timestep finds steps for it at rest and in thermal motion", 0.3 < found[1] <= found[0] < 1.0, found)
+claim("hd_timestep finds steps for it at rest and in thermal motion", 0.5 < found[1] <= found[0] < 1.3, found)
 
 # === The reference
 
@@ -116,19 +116,27 @@ rows = thermo(run(SCENE.replace("sphere 2 1.0", "sphere 3 1.0").replace("timeste
                   "compute s all membrane/shape\nthermo_style custom step c_T c_s[9]\nthermo 300\nrun 300\nunfix 1\n" + LANGEVIN + "run 600\n"))
 claim("so does a vesicle of 642 points", rows[-1]["c_s[9]"] > 15 and abs(rows[-1]["c_T"] / 0.05 - 1) < 0.2, rows[-1])
 
+# what the measure of the mesh does to long waves is in the matrix: without that, the limit was 0.82 here and fell with the
+# square root of the number of points
+
+limit = limits(run(SCENE.replace("sphere 2 1.0", "sphere 4 1.0") + LANGEVIN + "run 0\nhd_timestep all\n"))
+claim("2,562 points in equilibrium at kc = 20 kT have a limit next to that of few points", limit[0] > 1.25, limit)
+output = run(SCENE + LANGEVIN.replace("0.05 0.05", "0.01 0.05") + "run 400\n")
+claim("a reference is renewed when the temperature is another", "temperature has left that of the reference" in output)
+
 # === Steps that would tear the mesh
 
 COUNTED = SCENE + LANGEVIN + "thermo_style custom step c_e[1] f_1[3]\nthermo_modify norm no\ntimestep "
-run(COUNTED + "1.0\n" + DUMP.format(path="one.dump") + "run 200\n")
-rows = thermo(run(COUNTED + "1.0\n" + DUMP.format(path="two.dump") + "run 200\n", ranks=2))
+run(COUNTED + "1.5\n" + DUMP.format(path="one.dump") + "run 150\n")
+rows = thermo(run(COUNTED + "1.5\n" + DUMP.format(path="two.dump") + "run 150\n", ranks=2))
 apart = max(abs(a - b) for a, b in zip(numbers("one.dump"), numbers("two.dump")))
 claim("beyond the limit in thermal motion some steps are taken back, two ranks follow one",
-      0 < rows[-1]["f_1[3]"] < 20 and apart < 1e-7, f"{rows[-1]['f_1[3]']:.0f} of 200, {apart:.1e}")
-run(COUNTED + "1.0\nrun 90\nwrite_restart half.restart\n" + DUMP.format(path="straight.dump") + "run 110\n")
-run("read_restart half.restart\n" + LANGEVIN + "timestep 1.0\n" + DUMP.format(path="again.dump") + "run 110\n")
+      0 < rows[-1]["f_1[3]"] < 20 and apart < 1e-7, f"{rows[-1]['f_1[3]']:.0f} of 150, {apart:.1e}")
+run(COUNTED + "1.5\nrun 60\nwrite_restart half.restart\n" + DUMP.format(path="straight.dump") + "run 90\n")
+run("read_restart half.restart\n" + LANGEVIN + "timestep 1.5\n" + DUMP.format(path="again.dump") + "run 90\n")
 claim("    and so does a restart, bitwise", open("straight.dump").read() == open("again.dump").read())
 energies = []
-for dt, steps in ((0.4, 8000), (0.9, 4000)):
+for dt, steps in ((0.4, 8000), (1.0, 8000)):
     rows = thermo(run(COUNTED + f"{dt}\nrun 400\nreset_timestep 0\nrun {steps}\n"))[42:]
     blocks = [sum(row["c_e[1]"] for row in rows[k * len(rows) // 20:(k + 1) * len(rows) // 20]) / (len(rows) // 20)
               for k in range(20)]
@@ -136,9 +144,9 @@ for dt, steps in ((0.4, 8000), (0.9, 4000)):
 (near, near_error, none), (far, far_error, some) = energies
 claim("averages are the same", none == 0 < some and abs(far - near) < 3.5 * math.hypot(near_error, far_error),
       f"{near:.3f}({near_error:.3f}) and {far:.3f}({far_error:.3f}) with {some:.0f} steps taken back")
-message = error_of(SCENE + LANGEVIN + "timestep 1.4\nrun 1000\n")
+message = error_of(SCENE + LANGEVIN + "timestep 1.8\nrun 1000\n")
 claim("where one in ten would tear it, the run stops and says why", "would have torn the mesh and were taken back: the timestep "
-      "1.4 is too long; hd_timestep finds the limit" in message, message[:160])
+      "1.8 is too long; hd_timestep finds the limit" in message, message[:160])
 
 # === The measure
 

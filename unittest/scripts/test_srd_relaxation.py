@@ -244,18 +244,18 @@ def percent(x, error):
     return f"{100 * (x - 1):+.1f} +- {100 * error:.1f} %"
 
 
-def report(name, theory, runs, times, formula):
+def report(name, theory, runs, times, formula, within=0.1):
     """Claims about runs against all of linear theory, and against the formula for an incompressible fluid without
     inertia, with its factors for periodic images and for flat faces."""
     curve = Curve(theory, 2 * times[-1])
     x, error = measured(runs, times, curve)
-    claim(f"{name}: the rate is that of linear theory within 10 %", abs(x - 1) < 0.1 and error < 0.07,
+    claim(f"{name}: the rate is that of linear theory within {100 * within:.0f} %", abs(x - 1) < within and error < 0.07,
           percent(x, error))
     factor = theory.images * theory.faces
     expected = fitted(times, [curve(t) for t in times], exponential(theory.rate * factor))
     y, error = measured(runs, times, exponential(theory.rate * factor))
     claim(f"    and {formula}, times {theory.images:.3f} for periodic images and {theory.faces:.3f} for flat faces, "
-          "within 10 %", abs(y - 1) < 0.1, f"{percent(y, error)}, linear theory {100 * (expected - 1):+.1f} %")
+          f"within {100 * within:.0f} %", abs(y - 1) < within, f"{percent(y, error)}, linear theory {100 * (expected - 1):+.1f} %")
     print(f"note      relative to the formula alone: {percent(factor * y, factor * error)}")
 
 
@@ -278,9 +278,10 @@ if __name__ == "__main__":
         runs.append([sum(row[f"c_u[{k}][4]"] for k in (5, 6, 8)) / math.sqrt(3) for row in rows])
         radii += [row["c_u[1]"] for row in rows]
     times = [row["Step"] * DT for row in rows]
-    report("vesicle", theory, runs, times, "24 kc/(eta R^3) 4/35")
-    print("note      against theory of a mesh with the shear modulus that it has at rest:",
-          percent(*measured(runs, times, Curve(stiff, 2 * times[-1]))))
+    report("vesicle", theory, runs, times, "24 kc/(eta R^3) 4/35", within=0.15)
+    x, error = measured(runs, times, Curve(stiff, 2 * times[-1]))
+    claim("    which is that of a fluid membrane: a mesh with the shear modulus that it has at rest has this rate within 7 %",
+          abs(x - 1) < 0.07 and error < 0.04, percent(x, error))
     radius = sum(radii) / len(radii)
     claim("    and its mean radius is that of the start within 1 %", abs(radius / R - 1) < 0.01, f"{radius:.3f}")
 
