@@ -70,4 +70,40 @@ for name, scene in SCENES.items():
         claim(f"    {ranks} ranks, newton {newton}, agree with 1: as many collisions, and velocities", same and worst < 1e-10,
               (others, worst))
 
+# === Solvent that goes further than LAMMPS looks for, with neighbor lists that are never renewed otherwise
+
+BULK = """
+units           lj
+newton          {newton}
+atom_style      membrane_cp
+processors      * 1 1
+region          box block 0 16 0 8 0 8
+create_box      2 box angle/types 1
+create_membrane 1 sphere 1 1.0 center 6.0 3.0 4.0 mass 5.0
+group           membrane type 1
+create_solvent  2 both 8.0 4711 mass 1.0
+group           solvent type 2
+velocity        solvent create 1.0 87287 loop geom
+neigh_modify    delay 100000 every 100000 check no
+pair_style      zero 2.0
+pair_coeff      * *
+fix             1 membrane setforce 0 0 0
+fix             2 solvent srd/mesh {every} NULL 1.0 1.0 4711 angle 130 shift yes 9127 velocity keep
+timestep        {dt}
+dump            d all custom 120 r.dump id x y z vx vy vz
+dump_modify     d sort id format float %.17g
+run             120
+"""
+for every, dt in ((5, 0.02), (20, 0.1)):
+    run(BULK.format(newton="on", every=every, dt=dt), ranks=1)
+    atoms = read_dump("r.dump")[-1]
+    for ranks, newton in ((2, "off"), (4, "on")):
+        output = run(BULK.format(newton=newton, every=every, dt=dt), ranks=ranks)
+        found = read_dump("r.dump")[-1]
+        builds = [int(line.split("=")[1]) for line in output.split("\n") if line.startswith("Neighbor list builds")]
+        same = len(found) == len(atoms)
+        worst = max(abs(a - b) for i in atoms for a, b in zip(atoms[i][3:], found[i][3:])) if same else None
+        claim(f"solvent crosses sub-domains between collisions, every {every} steps of {dt}, {ranks} ranks: as on one, handed "
+              "on when it has strayed", same and worst < 1e-9 and 0 < builds[-1] < 120, (worst, builds))
+
 finish()
