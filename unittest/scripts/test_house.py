@@ -97,6 +97,31 @@ known = [f"{name}: {header}" for name in sorted(files) for header in includes[na
                            files[name], re.I)]
 claim("no header of a style is included but by its own parts and by a style that is derived from it", not known, known)
 
+# === Every file includes what it uses: precompiled headers hide what is missing, until a build that has none
+
+def reached(name, seen):
+    for header in includes.get(name, ()):
+        if header not in seen:
+            seen.add(header)
+            reached(header, seen)
+    return seen
+
+
+cmake = read(os.path.join(TOP, "CMakeLists.txt"))
+hidden = re.search(r"target_precompile_headers\(membrane_styles PRIVATE(.*?)\)", cmake, re.S).group(1)
+hidden = re.findall(r"<(\w+)\.h>", hidden)
+claim("the list of precompiled headers is read", {"atom", "fix", "modify", "update"} <= set(hidden), hidden)
+missing = []
+for name in sorted(files):
+    if not name.endswith(".cpp"):
+        continue
+    seen = reached(name, set())
+    code = re.sub(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\])*\"", "", files[name], flags=re.S)
+    missing += [f"{name}: {header}.h" for header in hidden
+                if re.search(rf"\b{header}->", code)
+                and not any(other == f"{header}.h" or other.startswith(f"{header}_") for other in seen)]
+claim("no file uses a class of LAMMPS whose header it gets by precompiled headers alone", not missing, missing)
+
 # === Tests
 
 scripts = {os.path.basename(path): read(path) for path in glob.glob(os.path.join(TOP, "unittest", "scripts", "test_*.py"))}
