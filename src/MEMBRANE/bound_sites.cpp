@@ -19,8 +19,9 @@
 
 #include "mesh_faces.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
-using Membrane_NS::SurfacePoint;
 
 /* ---------------------------------------------------------------------- */
 
@@ -58,21 +59,27 @@ int BoundSites::unpack(int i, const double *buf)
 
 /* ---------------------------------------------------------------------- */
 
-SurfacePoint LAMMPS_NS::find_again(const MeshFaces &mesh, const BoundSite &site)
+void LAMMPS_NS::find_again(const MeshFaces &mesh, BoundSite &site)
 {
   const auto weight = site.point.barycentric();
+  site.point = {};
   const int v = mesh.vertex(site.corner[0]);
-  if (v < 0) return {};
+  if (v < 0) return;
   for (int f : mesh.topology().faces_around(v)) {
+    tagint corner[3];
     double here[3];
     int same = 0;
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
+      corner[k] = mesh.tag(mesh.topology().face(f)[k]);
       for (int l = 0; l < 3; ++l)
-        if (mesh.tag(mesh.topology().face(f)[k]) == site.corner[l]) {
+        if (corner[k] == site.corner[l]) {
           here[k] = weight[l];
           ++same;
         }
-    if (same == 3) return {f, here[1], here[2]};
+    }
+    if (same < 3) continue;
+    site.point = {f, here[1], here[2]};
+    std::copy_n(corner, 3, site.corner);
+    return;
   }
-  return {};
 }

@@ -43,6 +43,13 @@ class BoundSites {
   BoundSite &operator[](int i) { return sites[i]; }
   const BoundSite &operator[](int i) const { return sites[i]; }
 
+  /// Has the processor read a site while it does something else.
+  void prefetch(int i) const
+  {
+    __builtin_prefetch(&sites[i]);
+    __builtin_prefetch(&sites[i].director);
+  }
+
   void grow(int nmax) { sites.resize(nmax); }
   void copy(int from, int to) { sites[to] = sites[from]; }
   void clear(int i) { sites[i] = BoundSite(); }
@@ -56,8 +63,8 @@ class BoundSites {
   std::vector<BoundSite> sites;
 };
 
-/// The place of a site in the present numbering of faces; face -1 if there is no such face any more.
-Membrane_NS::SurfacePoint find_again(const class MeshFaces &, const BoundSite &);
+/// Tells the place of a site in the present numbering of faces; face -1 if there is no such face any more.
+void find_again(const class MeshFaces &, BoundSite &);
 
 }    // namespace LAMMPS_NS
 

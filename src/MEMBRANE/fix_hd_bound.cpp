@@ -42,6 +42,9 @@ static constexpr double REACH = 5.0;
 // of closest points, in mean edges: energies are then right to its square
 static constexpr double PRECISION = 1.0e-10;
 
+// particles
+static constexpr size_t AHEAD = 4;
+
 /* ---------------------------------------------------------------------- */
 
 FixHDBound::FixHDBound(LAMMPS *lmp, int narg, char **arg) :
@@ -176,7 +179,7 @@ void FixHDBound::follow()
   if (change == MeshChange::TOPOLOGY) {
     make_surface();
     for (int i = 0; i < atom->nlocal; ++i)
-      if (sites[i].bound()) sites[i].point = find_again(*mesh, sites[i]);
+      if (sites[i].bound()) find_again(*mesh, sites[i]);
   }
   limit->forget_atoms();
   limit->follow_box();
@@ -217,6 +220,19 @@ void FixHDBound::find_members()
                total, before);
 }
 
+// sites and control points are all over memory: waiting for it would be half the time
+
+void FixHDBound::look_ahead(size_t a) const
+{
+  auto ahead = [&](int steps) { return a + steps * AHEAD < members.size() ? members[a + steps * AHEAD] : -1; };
+  if (const int i = ahead(3); i >= 0) {
+    sites.prefetch(i);
+    __builtin_prefetch(atom->x[0] + 3 * static_cast<size_t>(i));
+  }
+  if (const int i = ahead(2); i >= 0) limit->prefetch_face(sites[i].point.face);
+  if (const int i = ahead(1); i >= 0) limit->prefetch_points(sites[i].point.face);
+}
+
 void FixHDBound::find_feet()
 {
   feet.resize(members.size());
@@ -227,14 +243,13 @@ void FixHDBound::find_feet()
   squares = farthest = 0.0;
   for (size_t a = 0; a < members.size(); ++a) {
     const int i = members[a];
+    look_ahead(a);
     BoundSite &site = sites[i];
     limit->look_from(i);
     const Vector3d x = Vector3d::Map(atom->x[i]);
     const ClosestPoint closest = closest_point(*limit, x, site.point, precision);
     const int face = closest.point.face, size = limit->stencil(face).size();
-    if (face != site.point.face || closest.point.u != site.point.u || closest.point.v != site.point.v)
-      remember(i, closest);
-    site.distance = closest.distance;
+    remember(i, closest);
     const double off = closest.distance - height * site.leaflet;
     if (!(std::fabs(off) <= most))
       error->one(FLERR,
@@ -244,7 +259,7 @@ void FixHDBound::find_feet()
     squares += off * off;
     farthest = MAX(farthest, std::fabs(off));
     limit->weights<0>(closest.point, row);
-    feet[a] = {i, closest.normal, static_cast<int>(weights.size()), size, Vector3d::Zero()};
+    feet[a] = {i, closest.normal, off, static_cast<int>(weights.size()), size, Vector3d::Zero()};
     const int *local = limit->atoms(face);
     weights.insert(weights.end(), row.data(), row.data() + size);
     points.insert(points.end(), local, local + size);
@@ -293,20 +308,27 @@ void FixHDBound::hold(int vflag)
   }
   const bool dragging = carried && update->whichflag == 1;    // a minimization has energies alone
   if (dragging) drag_membrane();
-  std::vector<double> pull(feet.size());
+  double **f = atom->f;
+  if (atom->nghost) std::fill_n(f[atom->nlocal], 3 * atom->nghost, 0.0);    // they have been sent already
   for (size_t a = 0; a < feet.size(); ++a) {
-    const int i = feet[a].atom;
-    const double off = sites[i].distance - height * sites[i].leaflet;
-    pull[a] = -spring * off;
-    energy += 0.5 * spring * off * off;
-    const Vector3d &n = feet[a].normal;
-    for (int k = 0; k < 3; ++k) atom->f[i][k] += pull[a] * n[k];
-    tally_pull(feet[a], pull[a]);
+    const Foot &foot = feet[a];
+    if (a + AHEAD < feet.size()) {
+      const Foot &later = feet[a + AHEAD];
+      __builtin_prefetch(f[0] + 3 * static_cast<size_t>(later.atom), 1);
+      for (int k = later.start; k < later.start + later.size && !dragging; ++k)
+        __builtin_prefetch(f[0] + 3 * static_cast<size_t>(points[k]), 1);
+    }
+    const double pull = -spring * foot.off;
+    energy += 0.5 * spring * foot.off * foot.off;
+    const Vector3d force_on_atom = pull * foot.normal;
+    Vector3d::Map(f[foot.atom]) += force_on_atom;
+    tally_pull(foot, pull);
+    if (dragging) continue;    // what holds an atom moves it alone, and what pulls it pulls the membrane
+    for (int k = foot.start; k < foot.start + foot.size; ++k) Vector3d::Map(f[points[k]]) -= weights[k] * force_on_atom;
   }
-  if (dragging) return;    // what holds an atom moves it alone, and what pulls it pulls the membrane
-  spread(pull);
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int k = 0; k < 3; ++k) atom->f[i][k] -= work[i][k];
+  if (dragging) return;
+  exchanged = f;
+  comm->reverse_comm(this);
 }
 
 void FixHDBound::tally_pull(const Foot &foot, double pull)

@@ -159,6 +159,7 @@ class FixHDBound : public Fix {
   struct Foot {
     int atom;                 // owned
     Eigen::Vector3d normal;
+    double off;               // from its height, a length
     int start, size;          // of its weights
     Eigen::Vector3d place;    // the point of the surface, if carried
   };
@@ -182,6 +183,7 @@ class FixHDBound : public Fix {
   void make_surface();
   void follow();
   void find_members();
+  void look_ahead(size_t a) const;
   void find_feet();
   void remember(int, const Membrane_NS::ClosestPoint &);
   void choose_spring();

@@ -172,7 +172,7 @@ void FixHDBound::check_given_sites()
       if (std::find(components.begin(), components.end(), c) == components.end())
         error->all(FLERR, "{}: control point {} is not of a membrane of group {}", where, corner, membrane_name);
     }
-    one.site.point = find_again(*mesh, one.site);
+    find_again(*mesh, one.site);
     if (one.site.point.face < 0)
       error->all(FLERR, "{}: control points {}, {} and {} are not the corners of a face", where, one.site.corner[0],
                  one.site.corner[1], one.site.corner[2]);
@@ -244,7 +244,7 @@ void FixHDBound::bind_free_atoms()
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     BoundSite &site = sites[i];
-    if (site.bound()) site.point = find_again(*mesh, site);
+    if (site.bound()) find_again(*mesh, site);
     if (site.point.face < 0 || !is_near(i, site.point.face)) site.corner[0] = 0;
     if (!site.bound()) mine = 1;
   }
@@ -297,8 +297,10 @@ void FixHDBound::bind_free_atoms()
 void FixHDBound::remember(int i, const ClosestPoint &closest)
 {
   BoundSite &site = sites[i];
-  site.point = closest.point;
   site.distance = closest.distance;
+  const bool same = site.bound() && site.point.face == closest.point.face;
+  site.point = closest.point;
+  if (same) return;
   for (int k = 0; k < 3; ++k) site.corner[k] = mesh->tag(mesh->topology().face(closest.point.face)[k]);
 }
 

@@ -123,8 +123,8 @@ Vector3d LimitSurface::nearest_image(const Vector3d &difference) const
 {
   if (!is_periodic()) return difference;
   Vector3d shift = to_fraction_ * difference;
-  for (int k = 0; k < 3; ++k) shift[k] = periodic_[k] ? std::round(shift[k]) : 0.0;
-  return difference - lattice_ * shift;
+  for (int k = 0; k < 3; ++k) shift[k] = periodic_[k] ? std::rint(shift[k]) : 0.0;
+  return shift.isZero(0.0) ? difference : difference - lattice_ * shift;
 }
 
 /* ---------------------------------------------------------------------- */
