@@ -17,10 +17,10 @@
 
 #include "membrane_helfrich.h"
 
-#include "membrane_lanes.h"
+#include "membrane_helfrich_point.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <type_traits>
 
 using namespace Membrane_NS;
@@ -32,8 +32,9 @@ namespace {
 
 // control points of a regular face, of faces with one corner of valence 5 or 7, and with two
 constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13, TWO_FIVES = 10, TWO_SEVENS = 14;
+constexpr int THREEFOLD = -1;
 
-// fetch the control points of a block, relative to its first ones
+// fetch the control points of a block
 inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out)
 {
   for (int k = 0; k < size; ++k)
@@ -45,248 +46,291 @@ inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out
     }
 }
 
-/* ----------------------------------------------------------------------
-   first pass on one block
-------------------------------------------------------------------------- */
+// subtract what belongs to the first faces of a block, x and y at once
 
-struct BlockIntegrals {
-  Lane area, volume, curvature, curved_area, bending;
-  Lane3 vector_area;
-};
+inline void subtract(const int *points, int size, int faces, const Lane3 *g, double (*f)[3])
+{
+  typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
+  for (int k = 0; k < size; ++k) {
+    const Lane x = g[k].x, y = g[k].y, z = g[k].z;
+    const int *point = points + k * LANES;
+    auto take = [&](int l) {
+      double *force = f[point[l]];
+      Pair xy;
+      std::memcpy(&xy, force, sizeof(xy));
+      xy -= Pair{x[l], y[l]};
+      std::memcpy(force, &xy, sizeof(xy));
+      force[2] -= z[l];
+    };
+    if (faces == LANES)
+      for (int l = 0; l < LANES; ++l) take(l);
+    else
+      for (int l = 0; l < faces; ++l) take(l);
+  }
+}
 
-template <int SIZE, bool VOLUME, bool CURVATURE>
-void integrate_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot,
-                     BlockIntegrals &out)
+// === All rules: rows times control points
+
+template <int SIZE, class Integrals>
+void integrate_block(const PatchRule &rule, const Lane3 *x, Integrals &sum)
 {
   const int size = SIZE ? SIZE : rule.size;
-  const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
-  const Lane kc = CURVATURE ? load(model.kc, slot) : Lane{};
-  const Lane c0 = CURVATURE ? load(model.c0, slot) : Lane{};
-  BlockIntegrals sum{};    // not `out`: sums stay in registers
   for (int q = 0; q < rule.npoints; ++q) {
-    const double weight = rule.weight[q], area_weight = rule.area_weight[q];
-    const Lane3 ru = combine(rule.row(q, LimitBasis::DU), x, size);
-    const Lane3 rv = combine(rule.row(q, LimitBasis::DV), x, size);
-    const Lane3 a = cross(ru, rv);
-    const Lane J = sqrt(dot(a, a));
-    sum.area += area_weight * J;
-    if (VOLUME) {
-      const Lane3 r = combine(rule.row(q, LimitBasis::VALUE), x, size) - origin;
-      sum.volume += (area_weight / 3.0) * dot(r, a);
-      sum.vector_area += area_weight * a;
+    LaneJet at;
+    at.u = combine(rule.row(q, LimitBasis::DU), x, size);
+    at.v = combine(rule.row(q, LimitBasis::DV), x, size);
+    if (Integrals::HAS_PLACE) at.r = combine(rule.row(q, LimitBasis::VALUE), x, size);
+    if (Integrals::HAS_CURVATURE) {
+      at.uu = combine(rule.row(q, LimitBasis::DUU), x, size);
+      at.uv = combine(rule.row(q, LimitBasis::DUV), x, size);
+      at.vv = combine(rule.row(q, LimitBasis::DVV), x, size);
     }
-    if (CURVATURE) {
-      const Lane uu = dot(combine(rule.row(q, LimitBasis::DUU), x, size), a);
-      const Lane uv = dot(combine(rule.row(q, LimitBasis::DUV), x, size), a);
-      const Lane vv = dot(combine(rule.row(q, LimitBasis::DVV), x, size), a);
-      const Lane s = dot(rv, rv) * uu - 2.0 * dot(ru, rv) * uv + dot(ru, ru) * vv;
-      const Lane inverse = 1.0 / J, curvature = -s * inverse * inverse * inverse;    // 2H
-      const Lane excess = curvature - c0;
-      sum.curvature += weight * curvature * J;
-      sum.curved_area += weight * J;
-      sum.bending += (0.5 * weight) * kc * excess * excess * J;
-    }
+    sum.add(at, rule.weight[q], rule.area_weight[q]);
   }
-  out = sum;
 }
 
 /* ----------------------------------------------------------------------
-   energy of the leaflets of a block, per area of the mid-plane, with the areas A = 1 +- 2H D + K D^2 and integrated
-   curvatures n = 2H +- 2 K D of parallel surfaces and the curvature m each wants:
-     kc/4 sum [n^2/A - 2 m n + m^2 A],   n^2/A = (2H)^2 + w (n^2/A - (2H)^2).
-   w is 1 but where a radius of curvature nears D, as next to control points of irregular valence, and 0 before A is:
-   there it falls with x = D^2 (k1^2 + k2^2) = D^2 ((2H)^2 - 2 K) as 1 - t^3 (10 - 15 t + 6 t^2)
+   g: the gradient with respect to the control points. A few points at a time, first all their jets, then all their
+   energies: the square roots and divisions of one point do not wait for those of another.
 ------------------------------------------------------------------------- */
 
-class Leaflets {
- public:
-  Leaflets() = default;
-  Leaflets(const FaceModel &model, int slot) :
-      quarter(0.25 * load(model.kc, slot)), D(load(model.leaflet, slot)), outer(load(model.outer, slot)),
-      inner(load(model.inner, slot))
-  {
-  }
+constexpr int AT_A_TIME = 3;
 
-  struct Density {
-    Lane value, by_curvature, by_gaussian;
-    Lane bend;    // x
-  };
-  Density at(const Lane &curvature, const Lane &K) const
-  {
-    const Lane KD = K * D, hD = curvature * D, sum = 1.0 + KD * D, square = curvature * curvature;
-
-    // of A no less than where w is 0
-
-    Lane up = sum + hD, down = sum - hD;
-    const Lane grown = up, shrunk = down;
-    up = up < LEAST_AREA ? Lane{} + LEAST_AREA : up;
-    down = down < LEAST_AREA ? Lane{} + LEAST_AREA : down;
-    const Lane inverse = 1.0 / (up * down);
-    const Lane n_up = curvature + 2.0 * KD, n_down = curvature - 2.0 * KD;
-    const Lane above = n_up * down * inverse, below = n_down * up * inverse;    // 2H of the leaflets
-
-    Density e;
-    e.bend = D * (hD * curvature - 2.0 * KD);
-    Lane t = (e.bend - LEAFLETS_EXACT) * (1.0 / (LEAFLETS_THIN - LEAFLETS_EXACT));
-    t = t < 0.0 ? Lane{} : t;
-    t = t > 1.0 ? Lane{} + 1.0 : t;
-    const Lane w = 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
-    const Lane more = n_up * above + n_down * below - 2.0 * square;
-    const Lane slope = (-30.0 / (LEAFLETS_THIN - LEAFLETS_EXACT)) * t * t * (1.0 - t) * (1.0 - t) * more * D;    // by x, times D
-
-    e.value = 2.0 * square + w * more - 2.0 * (outer * n_up - inner * n_down) + outer * outer * grown + inner * inner * shrunk;
-    e.by_curvature = 4.0 * (1.0 - w) * curvature + w * (above * (2.0 - above * D) + below * (2.0 + below * D)) +
-        2.0 * slope * hD - 2.0 * (outer - inner) + D * (outer * outer - inner * inner);
-    e.by_gaussian = D * (w * (above * (4.0 - above * D) - below * (4.0 + below * D)) - 2.0 * slope - 4.0 * (outer + inner) +
-                         D * (outer * outer + inner * inner));
-    e.value *= quarter;
-    e.by_curvature *= quarter;
-    e.by_gaussian *= quarter;
-    return e;
-  }
-
- private:
-  static constexpr double LEAST_AREA = 0.1;    // (1 - sqrt(LEAFLETS_THIN)) = 0.106
-  Lane quarter, D, outer, inner;
-};
-
-struct BlockEnergies {
-  Lane bending, gauss, area, bend;    // bend: of leaflets
-};
-
-/* ----------------------------------------------------------------------
-   second pass on one block: energies, and the gradient g on the control points.
-
-   With a = r_u x r_v, J = |a|, E = r_u.r_u, F = r_u.r_v, G = r_v.r_v and
-   B = G r_uu - 2 F r_uv + E r_vv:
-     2H = -B.a/J^3,   K J = [(r_uu.a)(r_vv.a) - (r_uv.a)^2]/J^3,
-   so the energy density per (u, v) is a function of s = B.a and W = J^2 alone,
-     e = kc/2 (2H - c0)^2 J + moment 2H J + tension J,
-     de/ds = -[kc (2H - c0) + moment]/W,
-     de/dW = kc (2H - c0)/J [(2H - c0)/4 - 3/2 2H] - moment 2H/J + tension/(2 J),
-   and the chain rule runs back through B, E, F, G and a to the derivatives of r. The volume is
-   (1/3) (r - origin).a. With leaflets, of density e(2H, K), the terms of kc become
-     de/ds = -e_2H/W,   de/dW = -3/2 2H e_2H/J + (e - K e_K)/(2 J),
-   and e_K comes to kg.
-------------------------------------------------------------------------- */
-
-template <int SIZE, bool GAUSS, bool VOLUME, bool MOMENT, bool LEAFLETS>
-void force_block(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, Lane3 *g,
-                 BlockEnergies &out)
+template <int SIZE, class Energies>
+void force_block(const PatchRule &rule, const Lane3 *x, Energies &energies, Lane3 *g)
 {
-  static_assert(GAUSS || !LEAFLETS, "leaflets need the Gaussian curvature");
   const int size = SIZE ? SIZE : rule.size;
-  const Lane kc = load(model.kc, slot), c0 = load(model.c0, slot);
-  const Leaflets leaflets = LEAFLETS ? Leaflets(model, slot) : Leaflets();
-  const Lane tension = load(model.tension, slot);
-  const Lane kg = GAUSS ? load(model.kg, slot) : Lane{};
-  const Lane pressure = VOLUME ? load(model.pressure, slot) : Lane{};
-  const Lane bend = MOMENT ? load(model.moment, slot) : Lane{};
-  const Lane3 origin = VOLUME ? load3(model.origin, slot) : Lane3{};
-
-  Lane bending{}, gauss{}, area{}, bent{};
+  LaneJet at[AT_A_TIME];
+  LaneGradient by[AT_A_TIME];
   for (int k = 0; k < size; ++k) g[k] = Lane3{};
+  for (int first = 0; first < rule.npoints; first += AT_A_TIME) {
+    const int count = std::min(AT_A_TIME, rule.npoints - first);
+    for (int n = 0; n < count; ++n) {
+      const double *w = rule.row(first + n, 0);
+      const double *wu = w + LimitBasis::DU * size, *wv = w + LimitBasis::DV * size;
+      const double *wuu = w + LimitBasis::DUU * size, *wuv = w + LimitBasis::DUV * size;
+      const double *wvv = w + LimitBasis::DVV * size;
 
-  for (int q = 0; q < rule.npoints; ++q) {
-    const double weight = rule.weight[q], area_weight = rule.area_weight[q];
-    const double *w = rule.row(q, 0);
-    const double *wu = w + LimitBasis::DU * size, *wv = w + LimitBasis::DV * size;
-    const double *wuu = w + LimitBasis::DUU * size, *wuv = w + LimitBasis::DUV * size;
-    const double *wvv = w + LimitBasis::DVV * size;
+      // in two loops, whose sums fit into 16 vector registers
 
-    // in two loops, whose sums fit into 16 vector registers
-
-    Lane3 r{}, ru{}, rv{}, ruu{}, ruv{}, rvv{};
-    for (int k = 0; k < size; ++k) {
-      const Lane3 p = x[k];
-      if (VOLUME) r += w[k] * p;
-      ru += wu[k] * p;
-      rv += wv[k] * p;
+      Lane3 r{}, u{}, v{}, uu{}, uv{}, vv{};
+      for (int k = 0; k < size; ++k) {
+        const Lane3 p = x[k];
+        if (Energies::HAS_PLACE) r += w[k] * p;
+        u += wu[k] * p;
+        v += wv[k] * p;
+      }
+      if (Energies::HAS_PLACE) at[n].r = r;
+      at[n].u = u;
+      at[n].v = v;
+      for (int k = 0; k < size; ++k) {
+        const Lane3 p = x[k];
+        uu += wuu[k] * p;
+        uv += wuv[k] * p;
+        vv += wvv[k] * p;
+      }
+      at[n].uu = uu;
+      at[n].uv = uv;
+      at[n].vv = vv;
     }
-    for (int k = 0; k < size; ++k) {
-      const Lane3 p = x[k];
-      ruu += wuu[k] * p;
-      ruv += wuv[k] * p;
-      rvv += wvv[k] * p;
-    }
-
-    const Lane3 a = cross(ru, rv);
-    const Lane J = sqrt(dot(a, a)), inverse = 1.0 / J;
-    const Lane E = dot(ru, ru), F = dot(ru, rv), G = dot(rv, rv);
-    const Lane3 B = G * ruu - 2.0 * F * ruv + E * rvv;
-    const Lane curvature = -dot(B, a) * inverse * inverse * inverse;    // 2H
-    area += area_weight * J;
-
-    Lane L, M, N, gaussian, kg_here = kg;    // gaussian: K J
-    if (GAUSS) {
-      L = dot(ruu, a), M = dot(ruv, a), N = dot(rvv, a);
-      gaussian = (L * N - M * M) * inverse * inverse * inverse;
-      gauss += weight * kg * gaussian;
-    }
-    Lane moment, e_W;
-    if (LEAFLETS) {
-      const Lane K = gaussian * inverse;
-      const Leaflets::Density e = leaflets.at(curvature, K);
-      bent += weight * e.bend * J;
-      bending += weight * e.value * J;
-      moment = weight * e.by_curvature * inverse;
-      e_W = (0.5 * weight) * (e.value - K * e.by_gaussian) * inverse - 1.5 * curvature * moment;
-      kg_here += e.by_gaussian;
-    } else {
-      const Lane excess = curvature - c0;
-      bending += (0.5 * weight) * kc * excess * excess * J;
-      moment = weight * kc * excess * inverse;
-      e_W = moment * (0.25 * excess - 1.5 * curvature);
-    }
-    e_W += (0.5 * area_weight) * tension * inverse;
-    Lane e_s = -moment * inverse;
-    if (MOMENT) {
-      e_s -= weight * bend * inverse * inverse;
-      e_W -= weight * bend * curvature * inverse;
-    }
-
-    const Lane3 gB = e_s * a;
-    const Lane gE = dot(rvv, gB), gF = -2.0 * dot(ruv, gB), gG = dot(ruu, gB);
-    Lane3 guu = G * gB, guv = -2.0 * F * gB, gvv = E * gB;
-    Lane3 ga = e_s * B;
-
-    if (GAUSS) {
-      const Lane factor = weight * kg_here * inverse * inverse * inverse;
-      guu += factor * N * a;
-      guv += -2.0 * factor * M * a;
-      gvv += factor * L * a;
-      ga += factor * (N * ruu - 2.0 * M * ruv + L * rvv);
-      e_W += (-1.5 * weight) * kg_here * gaussian * inverse * inverse;
-    }
-
-    ga += 2.0 * e_W * a;
-    Lane3 gr;
-    if (VOLUME) {
-      const Lane third = (area_weight / 3.0) * pressure;
-      ga += third * (r - origin);
-      gr = third * a;
-    }
-    const Lane3 gu = cross(rv, ga) + 2.0 * gE * ru + gF * rv;
-    const Lane3 gv = cross(ga, ru) + 2.0 * gG * rv + gF * ru;
-
-    for (int k = 0; k < size; ++k) {
-      Lane3 sum = g[k];
-      if (VOLUME) sum += w[k] * gr;
-      sum += wu[k] * gu;
-      sum += wv[k] * gv;
-      sum += wuu[k] * guu;
-      sum += wuv[k] * guv;
-      sum += wvv[k] * gvv;
-      g[k] = sum;
+    for (int n = 0; n < count; ++n) find_normal(at[n], by[n]);
+    for (int n = 0; n < count; ++n)
+      energies.add(at[n], rule.weight[first + n], rule.area_weight[first + n], by[n]);
+    for (int n = 0; n < count; ++n) {
+      const double *w = rule.row(first + n, 0);
+      const double *wu = w + LimitBasis::DU * size, *wv = w + LimitBasis::DV * size;
+      const double *wuu = w + LimitBasis::DUU * size, *wuv = w + LimitBasis::DUV * size;
+      const double *wvv = w + LimitBasis::DVV * size;
+      const LaneGradient &e = by[n];
+      for (int k = 0; k < size; ++k) {
+        Lane along = wuu[k] * e.uu + wuv[k] * e.uv + wvv[k] * e.vv;
+        if (Energies::HAS_PLACE) along += w[k] * e.r;
+        Lane3 sum = g[k];
+        sum += wu[k] * e.u;
+        sum += wv[k] * e.v;
+        sum += along * e.a;
+        g[k] = sum;
+      }
     }
   }
-  out = {bending, gauss, area, bent};
+}
+
+// === Threefold rules: see ThreefoldPoint
+
+using Threefold::next, Threefold::prev;
+
+/// The combinations of control points that rows are made of, by axis; or gradients with respect to them.
+struct Combinations {
+  Lane3 even[3][4], odd[3][4], sum[4];
+
+  explicit Combinations(const Lane3 *x)
+  {
+    for (int i = 0; i < 3; ++i) {
+      even[i][0] = x[Threefold::corner(i)];
+      even[i][1] = x[Threefold::across(i)];
+      even[i][2] = x[Threefold::p(i)] + x[Threefold::q(i)];
+      odd[i][3] = x[Threefold::p(i)] - x[Threefold::q(i)];
+    }
+    for (int t = 0; t < 3; ++t) {
+      sum[t] = even[0][t] + even[1][t] + even[2][t];
+      for (int i = 0; i < 3; ++i) odd[i][t] = even[next(i)][t] - even[prev(i)][t];
+    }
+    sum[3] = odd[0][3] + odd[1][3] + odd[2][3];
+    for (int i = 0; i < 3; ++i) even[i][3] = odd[next(i)][3] - odd[prev(i)][3];
+  }
+
+  Combinations() {}
+
+  /// Of a gradient: that with respect to the control points.
+  void to_points(Lane3 *g) const
+  {
+    for (int i = 0; i < 3; ++i) {
+      Lane3 total[4];
+      for (int t = 0; t < 3; ++t) total[t] = even[i][t] + sum[t] + odd[prev(i)][t] - odd[next(i)][t];
+      total[3] = odd[i][3] + sum[3] + even[prev(i)][3] - even[next(i)][3];
+      g[Threefold::corner(i)] = total[0];
+      g[Threefold::across(i)] = total[1];
+      g[Threefold::p(i)] = total[2] + total[3];
+      g[Threefold::q(i)] = total[2] - total[3];
+    }
+  }
+};
+
+// what the sums over axes add to the rows of all three points
+
+template <bool PLACE, bool CURVATURE> inline void add_sums(const ThreefoldPoint &point, const Combinations &c, LaneJet &at)
+{
+  using P = ThreefoldPoint;
+  Lane3 r{}, u{}, uu{}, vv{};
+  for (int t = 0; t < 3; ++t) {
+    const Lane3 p = c.sum[t];
+    if (PLACE) r += point.even_sum[t][P::VALUE] * p;
+    u += point.even_sum[t][P::DA] * p;
+    if (!CURVATURE) continue;
+    uu += point.even_sum[t][P::DAA] * p;
+    vv += point.even_sum[t][P::DBB] * p;
+  }
+  at.u = u;
+  at.v = point.odd_sum[P::DB] * c.sum[3];
+  if (PLACE) at.r = r;
+  if (!CURVATURE) return;
+  at.uu = uu;
+  at.vv = vv;
+  at.uv = point.odd_sum[P::DAB] * c.sum[3];
+}
+
+template <bool PLACE, bool CURVATURE>
+inline void find_jet(const ThreefoldPoint &point, const Combinations &c, int axis, const LaneJet &sums, LaneJet &at)
+{
+  using P = ThreefoldPoint;
+  Lane3 r, u = sums.u, uu, vv;
+  if (PLACE) r = sums.r;
+  if (CURVATURE) uu = sums.uu, vv = sums.vv;
+  for (int t = 0; t < 4; ++t) {
+    const Lane3 p = c.even[axis][t];
+    if (PLACE) r += point.even[t][P::VALUE] * p;
+    u += point.even[t][P::DA] * p;
+    if (!CURVATURE) continue;
+    uu += point.even[t][P::DAA] * p;
+    vv += point.even[t][P::DBB] * p;
+  }
+  if (PLACE) at.r = r;
+  at.u = u;
+  if (CURVATURE) at.uu = uu, at.vv = vv;
+  Lane3 v = sums.v, uv;
+  if (CURVATURE) uv = sums.uv;
+  for (int t = 0; t < 4; ++t) {
+    const Lane3 p = c.odd[axis][t];
+    v += point.odd[t][P::DB] * p;
+    if (CURVATURE) uv += point.odd[t][P::DAB] * p;
+  }
+  at.v = v;
+  if (CURVATURE) at.uv = uv;
+}
+
+template <class Integrals>
+void integrate_threefold(const PatchRule &rule, const Lane3 *x, Integrals &sum)
+{
+  constexpr bool PLACE = Integrals::HAS_PLACE, CURVATURE = Integrals::HAS_CURVATURE;
+  const Combinations c(x);
+  LaneJet sums, at;
+  for (const ThreefoldPoint &point : rule.threefold) {
+    add_sums<PLACE, CURVATURE>(point, c, sums);
+    for (int i = 0; i < 3; ++i) {
+      find_jet<PLACE, CURVATURE>(point, c, i, sums, at);
+      sum.add(at, point.weight, point.area_weight);
+    }
+  }
+}
+
+// what a gradient at the three points is for the combinations: theirs, or added to it
+
+template <bool PLACE, bool FIRST>
+inline void spread(const ThreefoldPoint &point, const LaneGradient (&by)[3], Combinations &c)
+{
+  using P = ThreefoldPoint;
+  for (int i = 0; i < 3; ++i) {
+    const LaneGradient &e = by[i];
+    for (int t = 0; t < 4; ++t) {
+      Lane along = point.even[t][P::DAA] * e.uu + point.even[t][P::DBB] * e.vv;
+      if (PLACE) along += point.even[t][P::VALUE] * e.r;
+      Lane3 even = along * e.a;
+      even += point.even[t][P::DA] * e.u;
+      if (!FIRST) even += c.even[i][t];
+      c.even[i][t] = even;
+    }
+    const Lane3 along = e.uv * e.a;
+    for (int t = 0; t < 4; ++t) {
+      Lane3 odd = point.odd[t][P::DB] * e.v;
+      odd += point.odd[t][P::DAB] * along;
+      if (!FIRST) odd += c.odd[i][t];
+      c.odd[i][t] = odd;
+    }
+  }
+  for (int t = 0; t < 3; ++t) {
+    Lane3 sum = point.even_sum[t][P::DA] * (by[0].u + by[1].u + by[2].u);
+    for (int i = 0; i < 3; ++i) {
+      Lane along = point.even_sum[t][P::DAA] * by[i].uu + point.even_sum[t][P::DBB] * by[i].vv;
+      if (PLACE) along += point.even_sum[t][P::VALUE] * by[i].r;
+      sum += along * by[i].a;
+    }
+    if (!FIRST) sum += c.sum[t];
+    c.sum[t] = sum;
+  }
+  Lane3 sum = point.odd_sum[P::DB] * (by[0].v + by[1].v + by[2].v);
+  sum += point.odd_sum[P::DAB] * (by[0].uv * by[0].a + by[1].uv * by[1].a + by[2].uv * by[2].a);
+  if (!FIRST) sum += c.sum[3];
+  c.sum[3] = sum;
+}
+
+template <class Energies>
+void force_threefold(const PatchRule &rule, const Lane3 *x, Energies &energies, Lane3 *g)
+{
+  constexpr bool PLACE = Energies::HAS_PLACE;
+  const Combinations c(x);
+  Combinations by_c;
+  LaneJet at[3], sums;
+  LaneGradient by[3];
+  bool first = true;
+  for (const ThreefoldPoint &point : rule.threefold) {
+    add_sums<PLACE, true>(point, c, sums);
+    for (int i = 0; i < 3; ++i) find_jet<PLACE, true>(point, c, i, sums, at[i]);
+    for (int i = 0; i < 3; ++i) find_normal(at[i], by[i]);
+    for (int i = 0; i < 3; ++i) energies.add(at[i], point.weight, point.area_weight, by[i]);
+    if (first)
+      spread<PLACE, true>(point, by, by_c);
+    else
+      spread<PLACE, false>(point, by, by_c);
+    first = false;
+  }
+  by_c.to_points(g);
 }
 
 // the compiler unrolls loops over frequent numbers of control points; 0 is any
-template <class Choose> auto with_size(int size, const Choose &choose)
+template <class Choose> auto with_size(const PatchRule &rule, const Choose &choose)
 {
-  switch (size) {
+  if (!rule.threefold.empty()) return choose(std::integral_constant<int, THREEFOLD>());
+  switch (rule.size) {
     case REGULAR: return choose(std::integral_constant<int, REGULAR>());
     case FIVE: return choose(std::integral_constant<int, FIVE>());
     case SEVEN: return choose(std::integral_constant<int, SEVEN>());
@@ -302,27 +346,48 @@ template <class Choose> auto with_flag(bool flag, const Choose &choose)
   return flag ? choose(std::true_type()) : choose(std::false_type());
 }
 
-auto choose_integrate_block(int size, bool volume, bool curvature)
+template <int SIZE, class Integrals>
+void integrate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, BlockIntegrals &out)
 {
-  return with_size(size, [&](auto n) {
+  Integrals sum(model, slot);    // and not `out`: sums stay in registers
+  if constexpr (SIZE == THREEFOLD)
+    integrate_threefold(rule, x, sum);
+  else
+    integrate_block<SIZE>(rule, x, sum);
+  out = sum;
+}
+
+template <int SIZE, class Energies>
+void evaluate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, Lane3 *g, BlockEnergies &out)
+{
+  Energies sum(model, slot);
+  if constexpr (SIZE == THREEFOLD)
+    force_threefold(rule, x, sum, g);
+  else
+    force_block<SIZE>(rule, x, sum, g);
+  out = sum;
+}
+
+auto choose_integrate(const PatchRule &rule, bool volume, bool curvature)
+{
+  return with_size(rule, [&](auto n) {
     return with_flag(volume, [&](auto v) {
       return with_flag(curvature, [](auto c) {
-        return integrate_block<decltype(n)::value, decltype(v)::value, decltype(c)::value>;
+        return integrate<decltype(n)::value, PointIntegrals<decltype(v)::value, decltype(c)::value>>;
       });
     });
   });
 }
 
-auto choose_force_block(int size, const FaceTerms &terms)
+auto choose_evaluate(const PatchRule &rule, const FaceTerms &terms)
 {
-  return with_size(size, [&](auto n) {
+  return with_size(rule, [&](auto n) {
     return with_flag(terms.leaflets, [&](auto l) {
       return with_flag(terms.gauss, [&](auto g) {
         return with_flag(terms.volume, [&](auto v) {
           return with_flag(terms.moment, [](auto m) {
             constexpr bool leaflets = decltype(l)::value, gauss = leaflets || decltype(g)::value;
-            return force_block<decltype(n)::value, gauss, decltype(v)::value, decltype(m)::value,
-                               leaflets>;
+            return evaluate<decltype(n)::value, PointEnergies<gauss, decltype(v)::value, decltype(m)::value, leaflets>>;
           });
         });
       });
@@ -339,14 +404,14 @@ void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
 {
   const PatchRule &rule = *group.rule;
   const bool volume = !out.volume.empty(), curved = !out.curvature.empty() || !out.bending.empty();
-  const auto integrate = choose_integrate_block(rule.size, volume, curved);
+  const auto integrate_these = choose_integrate(rule, volume, curved);
 
   Lane3 p[MOST_POINTS];
   BlockIntegrals sum;
   for (int block = 0; block < group.nblocks(); ++block) {
     const int slot = group.first_slot + block * LANES;
     gather(&group.points[(size_t) block * rule.size * LANES], rule.size, x, p);
-    integrate(rule, p, model, slot, sum);
+    integrate_these(rule, p, model, slot, sum);
     if (!out.area.empty()) store(out.area, slot, sum.area);
     if (!out.curvature.empty()) store(out.curvature, slot, sum.curvature);
     if (!out.curved_area.empty()) store(out.curved_area, slot, sum.curved_area);
@@ -363,7 +428,7 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
                               const FaceTerms &terms, double (*f)[3], FaceEnergies &out)
 {
   const PatchRule &rule = *group.rule;
-  const auto evaluate = choose_force_block(rule.size, terms);
+  const auto evaluate_these = choose_evaluate(rule, terms);
 
   Lane3 p[MOST_POINTS], g[MOST_POINTS];
   BlockEnergies sum;
@@ -371,7 +436,7 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
     const int slot = group.first_slot + block * LANES;
     const int *points = &group.points[(size_t) block * rule.size * LANES];
     gather(points, rule.size, x, p);
-    evaluate(rule, p, model, slot, g, sum);
+    evaluate_these(rule, p, model, slot, g, sum);
 
     if (!out.bending.empty()) store(out.bending, slot, sum.bending);
     if (!out.gauss.empty()) store(out.gauss, slot, sum.gauss);
@@ -393,13 +458,6 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
         for (int i = 0; i < 6; ++i) out.virial[6 * (slot + l) + i] = v[i][l];
     }
 
-    const int faces = std::min(LANES, group.nfaces - block * LANES);
-    for (int k = 0; k < rule.size; ++k)
-      for (int l = 0; l < faces; ++l) {
-        double *force = f[points[k * LANES + l]];
-        force[0] -= g[k].x[l];
-        force[1] -= g[k].y[l];
-        force[2] -= g[k].z[l];
-      }
+    subtract(points, rule.size, std::min(LANES, group.nfaces - block * LANES), g, f);
   }
 }

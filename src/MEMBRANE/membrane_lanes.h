@@ -28,6 +28,17 @@ typedef double Lane __attribute__((vector_size(LANES * sizeof(double))));
 /// Three of them: a vector in space for each face.
 struct Lane3 {
   Lane x, y, z;
+
+  Lane3() = default;
+  Lane3(const Lane3 &) = default;
+  /// A lane at a time: compilers copy memory in smaller pieces, which the next load would wait for.
+  Lane3 &operator=(const Lane3 &other)
+  {
+    x = other.x;
+    y = other.y;
+    z = other.z;
+    return *this;
+  }
 };
 
 inline Lane3 operator+(const Lane3 &a, const Lane3 &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

@@ -265,7 +265,10 @@ PatchRules::PatchRules(Quadrature quadrature) :
 const PatchRule &PatchRules::get(const Valences &valences)
 {
   auto found = rules_.find(valences);
-  if (found == rules_.end()) found = rules_.emplace(valences, build(valences)).first;
+  if (found == rules_.end()) {
+    found = rules_.emplace(valences, build(valences)).first;
+    found->second.threefold = threefold_points(found->second);
+  }
   return found->second;
 }
 

@@ -15,6 +15,7 @@
 #define LMP_MEMBRANE_QUADRATURE_H
 
 #include "membrane_limit_basis.h"
+#include "membrane_threefold.h"
 
 #include <map>
 #include <string>
@@ -50,6 +51,7 @@ struct PatchRule {
   int npoints = 0;
   std::vector<double> weight, area_weight;    ///< [npoints]
   std::vector<double> rows;                   ///< [npoints][LimitBasis::ROWS][size]
+  std::vector<ThreefoldPoint> threefold;      ///< the same points by threes, if that is how they are
   const double *row(int point, int which) const
   {
     return rows.data() + (static_cast<size_t>(point) * LimitBasis::ROWS + which) * size;

@@ -747,6 +747,51 @@ TEST(ClosedForms, AFlatSheetHasAreaAndNothingElse)
   }
 }
 
+// === Points by threes
+
+TEST(Threefold, PointsAreFoundInTheRulesOfThreeAndSixPointsOfARegularFace)
+{
+  const std::map<Quadrature, size_t> expected = {
+      {Quadrature::ONE, 0}, {Quadrature::THREE, 1}, {Quadrature::SIX, 2}, {Quadrature::TWELVE, 0}};
+  for (const auto &[quadrature, threes] : expected)
+    EXPECT_EQ(shared_rules(quadrature).get({6, 6, 6}).threefold.size(), threes) << name(quadrature);
+  for (const Valences &valences : {Valences{5, 6, 6}, Valences{5, 6, 7}, Valences{7, 7, 7}})    // the second with 12 points, too
+    EXPECT_TRUE(shared_rules(Quadrature::SIX).get(valences).threefold.empty());
+  PatchRule lopsided = shared_rules(Quadrature::SIX).get({6, 6, 6});
+  lopsided.weight[2] *= 1.0 + 1e-6;
+  EXPECT_TRUE(threefold_points(lopsided).empty());
+}
+
+TEST(Threefold, PointsGiveWhatRowsTimesControlPointsGive)
+{
+  const TriangleMesh mesh = perturbed(icosphere(2, 1.0), 0.05, 77);
+  for (Quadrature quadrature : {Quadrature::THREE, Quadrature::SIX})
+    for (const auto &[term, moduli] : TERMS) {
+      Scene scene(mesh, quadrature, {moduli});
+      const Totals threes = scene.evaluate();
+      std::vector<PatchRule> plain;
+      plain.reserve(scene.groups().size());
+      int found = 0;
+      for (FaceGroup &group : scene.groups()) {
+        found += !group.rule->threefold.empty();
+        plain.push_back(*group.rule);
+        plain.back().threefold.clear();
+        group.rule = &plain.back();
+      }
+      ASSERT_EQ(found, 1);
+      const Totals rows = scene.evaluate();
+      const std::string where = name(quadrature) + ", " + term;
+      for (auto number : {&Totals::bending, &Totals::gauss, &Totals::tension, &Totals::pressure, &Totals::moment, &Totals::area,
+                          &Totals::volume, &Totals::curvature, &Totals::first_pass_bending})
+        EXPECT_LE(std::fabs(threes.*number - rows.*number), 1e-13 * std::max(1.0, std::fabs(rows.*number))) << where;
+      EXPECT_LE((threes.vector_area - rows.vector_area).norm(), 1e-13) << where;
+      EXPECT_LE((threes.virial - rows.virial).norm(), 1e-11 * std::max(1.0, rows.virial.norm())) << where;
+      double worst = 0.0;
+      for (size_t i = 0; i < rows.force.size(); ++i) worst = std::max(worst, (threes.force[i] - rows.force[i]).norm());
+      EXPECT_LE(worst, 1e-12 * std::max(1.0, largest(rows.force))) << where;
+    }
+}
+
 // === Groups
 
 TEST(Groups, HoldEveryFaceOnceWithItsOwnStencil)
