@@ -42,6 +42,7 @@ MeshTotals::MeshTotals(LAMMPS *lmp, const LocalMesh &mesh) : Pointers(lmp), mesh
 void MeshTotals::place_centres()
 {
   seen = mesh.stamp();
+  placed = false;
   const auto &topology = mesh->topology();
   parts.assign(topology.num_components(), Total());
   for (int v = 0; v < topology.num_vertices(); ++v) {
@@ -61,10 +62,14 @@ void MeshTotals::unwrap(int i, double *at) const
     domain->unmap(atom->x[i], atom->image[i], at);
 }
 
-void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &model) const
+bool MeshTotals::any_moved() const
 {
-  const bool moved = std::any_of(atom->image, atom->image + atom->nlocal + atom->nghost,
-                                 [](imageint image) { return image != NOT_MOVED; });
+  return std::any_of(atom->image, atom->image + atom->nlocal + atom->nghost,
+                     [](imageint image) { return image != NOT_MOVED; });
+}
+
+void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &model, bool moved) const
+{
   for (const FaceGroup &group : groups)
     for (int s = 0, n = group.nslots(); s < n; ++s) {
       const Total &total = parts[component_of(group, s)];
@@ -95,7 +100,8 @@ void MeshTotals::place(const std::vector<FaceGroup> &groups, FaceModel &model)
   for (size_t c = 0; c < parts.size(); ++c)
     for (int k = 0; k < 3; ++k)
       parts[c].centre[k] = all[3 * c + k] / mesh->topology().num_vertices(static_cast<int>(c));
-  place_origins(groups, model);
+  place_origins(groups, model, any_moved());
+  placed = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -111,21 +117,28 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
   integrals.vector_area.resize(wanted.volume ? 3 * (size_t) nslots : 0);
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  if (wanted.volume) place_origins(groups, model);
+  const bool moved = wanted.volume && any_moved();
+  if (wanted.volume && (moved || !placed)) place_origins(groups, model, moved);
   for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
 
   constexpr int WIDTH = 9;
   const int n = parts.size();
   std::vector<double> mine((size_t) n * WIDTH, 0.0), all(mine.size());
   for (const FaceGroup &group : groups)
-    for (int s = 0; s < group.nfaces; ++s) {
-      const int slot = group.first_slot + s;
-      double *sum = &mine[component_of(group, s) * WIDTH];
-      sum[0] += integrals.area[slot];
-      if (wanted.curvature) sum[8] += integrals.curvature[slot];
-      if (!wanted.volume) continue;
-      sum[1] += integrals.volume[slot];
-      for (int k = 0; k < 3; ++k) sum[2 + k] += integrals.vector_area[3 * (size_t) slot + k];
+    for (int s = 0; s < group.nfaces;) {
+      const int component = component_of(group, s);
+      double *sum = &mine[component * WIDTH], area = 0.0, volume = 0.0, vector[3] = {0.0, 0.0, 0.0};
+      for (; s < group.nfaces && component_of(group, s) == component; ++s) {
+        const int slot = group.first_slot + s;
+        area += integrals.area[slot];
+        if (wanted.curvature) sum[8] += integrals.curvature[slot];
+        if (!wanted.volume) continue;
+        volume += integrals.volume[slot];
+        for (int k = 0; k < 3; ++k) vector[k] += integrals.vector_area[3 * (size_t) slot + k];
+      }
+      sum[0] += area;
+      sum[1] += volume;
+      for (int k = 0; k < 3; ++k) sum[2 + k] += vector[k];
     }
   if (wanted.volume)
     for (const auto &[i, v] : mesh->owned_points()) {
@@ -158,9 +171,11 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
     if (mesh->is_closed(c)) membrane.volume += total.volume;
   }
   if (!wanted.volume) return;
+  placed = !moved;
   for (const FaceGroup &group : groups)
-    for (int s = 0, n = group.nslots(); s < n; ++s) {
-      const auto &d = shift[component_of(group, s)];
-      for (int k = 0; k < 3; ++k) model.origin[3 * (size_t) (group.first_slot + s) + k] += d[k];
+    for (int s = 0, slots = group.nslots(); s < slots; ++s) {
+      const int c = component_of(group, s);
+      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
+      for (int k = 0; k < 3; ++k) origin[k] = moved ? origin[k] + shift[c][k] : parts[c].centre[k];
     }
 }
