@@ -55,6 +55,10 @@ std::vector<FaceGroup> group_faces(const Topology &topology, PatchRules &rules,
 /// The number of slots of all groups.
 int count_slots(const std::vector<FaceGroup> &groups);
 
+/** Of D^2 (k1^2 + k2^2): up to EXACT leaflets have the energy of parallel surfaces, from THIN on its expansion to second
+    order in D k, and a mixture in between. A parallel surface has a cusp at 1 or beyond. */
+constexpr double LEAFLETS_EXACT = 0.5, LEAFLETS_THIN = 0.8;
+
 /** What each face is made of, by slot: the energy of a face is
     integral kc/2 (2H - c0)^2 + kg K + moment 2H + tension dA, and pressure is dE/dV of its
     membrane. 2H = +2/R on a sphere with outward normals. Any consistent units.

@@ -20,7 +20,6 @@
 #include "membrane_helfrich_point.h"
 
 #include <algorithm>
-#include <cstring>
 #include <type_traits>
 
 using namespace Membrane_NS;
@@ -33,41 +32,6 @@ namespace {
 // control points of a regular face, of faces with one corner of valence 5 or 7, and with two
 constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13, TWO_FIVES = 10, TWO_SEVENS = 14;
 constexpr int THREEFOLD = -1;
-
-// fetch the control points of a block
-inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out)
-{
-  for (int k = 0; k < size; ++k)
-    for (int l = 0; l < LANES; ++l) {
-      const double *p = x[points[k * LANES + l]];
-      out[k].x[l] = p[0];
-      out[k].y[l] = p[1];
-      out[k].z[l] = p[2];
-    }
-}
-
-// subtract what belongs to the first faces of a block, x and y at once
-
-inline void subtract(const int *points, int size, int faces, const Lane3 *g, double (*f)[3])
-{
-  typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
-  for (int k = 0; k < size; ++k) {
-    const Lane x = g[k].x, y = g[k].y, z = g[k].z;
-    const int *point = points + k * LANES;
-    auto take = [&](int l) {
-      double *force = f[point[l]];
-      Pair xy;
-      std::memcpy(&xy, force, sizeof(xy));
-      xy -= Pair{x[l], y[l]};
-      std::memcpy(force, &xy, sizeof(xy));
-      force[2] -= z[l];
-    };
-    if (faces == LANES)
-      for (int l = 0; l < LANES; ++l) take(l);
-    else
-      for (int l = 0; l < faces; ++l) take(l);
-  }
-}
 
 // === All rules: rows times control points
 
@@ -445,15 +409,7 @@ void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], cons
     if (!out.virial.empty()) {
       const Lane3 origin = terms.volume ? load3(model.origin, slot) : p[0];
       Lane v[6] = {};
-      for (int k = 0; k < rule.size; ++k) {
-        const Lane3 d = p[k] - origin;
-        v[0] -= d.x * g[k].x;
-        v[1] -= d.y * g[k].y;
-        v[2] -= d.z * g[k].z;
-        v[3] -= d.x * g[k].y;
-        v[4] -= d.x * g[k].z;
-        v[5] -= d.y * g[k].z;
-      }
+      for (int k = 0; k < rule.size; ++k) add_virial(p[k] - origin, g[k], v);
       for (int l = 0; l < LANES; ++l)
         for (int i = 0; i < 6; ++i) out.virial[6 * (slot + l) + i] = v[i][l];
     }

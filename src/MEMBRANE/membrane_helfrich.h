@@ -28,10 +28,6 @@ struct FaceTerms {
   bool leaflets = false;    ///< the model has them
 };
 
-/** Of D^2 (k1^2 + k2^2): up to EXACT leaflets have the energy of parallel surfaces, from THIN on its expansion to second
-    order in D k, and a mixture in between. A parallel surface has a cusp at 1 or beyond. */
-constexpr double LEAFLETS_EXACT = 0.5, LEAFLETS_THIN = 0.8;
-
 /// Integrals over each face, by slot. Empty arrays are not computed.
 struct FaceIntegrals {
   std::vector<double> area;           ///< [slots] dA

@@ -14,7 +14,6 @@
 #ifndef LMP_MEMBRANE_HELFRICH_POINT_H
 #define LMP_MEMBRANE_HELFRICH_POINT_H
 
-#include "membrane_helfrich.h"
 #include "membrane_lanes.h"
 
 namespace Membrane_NS {

@@ -96,6 +96,51 @@ inline void store3(std::vector<double> &array, int slot, const Lane3 &lane)
   }
 }
 
+/// Fetches points of a block of faces: points is [size][LANES].
+inline void gather(const int *points, int size, const double (*x)[3], Lane3 *out)
+{
+  for (int k = 0; k < size; ++k)
+    for (int l = 0; l < LANES; ++l) {
+      const double *p = x[points[k * LANES + l]];
+      out[k].x[l] = p[0];
+      out[k].y[l] = p[1];
+      out[k].z[l] = p[2];
+    }
+}
+
+/// Subtracts gradients at points of the first faces of a block from forces.
+inline void subtract(const int *points, int size, int faces, const Lane3 *g, double (*f)[3])
+{
+  typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
+  for (int k = 0; k < size; ++k) {
+    const Lane x = g[k].x, y = g[k].y, z = g[k].z;
+    const int *point = points + k * LANES;
+    auto take = [&](int l) {
+      double *force = f[point[l]];
+      Pair xy;    // both at once
+      std::memcpy(&xy, force, sizeof(xy));
+      xy -= Pair{x[l], y[l]};
+      std::memcpy(force, &xy, sizeof(xy));
+      force[2] -= z[l];
+    };
+    if (faces == LANES)
+      for (int l = 0; l < LANES; ++l) take(l);
+    else
+      for (int l = 0; l < faces; ++l) take(l);
+  }
+}
+
+/// Adds the virial xx yy zz xy xz yz of a gradient at a place.
+inline void add_virial(const Lane3 &place, const Lane3 &gradient, Lane (&virial)[6])
+{
+  virial[0] -= place.x * gradient.x;
+  virial[1] -= place.y * gradient.y;
+  virial[2] -= place.z * gradient.z;
+  virial[3] -= place.x * gradient.y;
+  virial[4] -= place.x * gradient.z;
+  virial[5] -= place.y * gradient.z;
+}
+
 /// A linear combination of the control points of the faces.
 inline Lane3 combine(const double *weights, const Lane3 *x, int size)
 {

@@ -267,7 +267,8 @@ const PatchRule &PatchRules::get(const Valences &valences)
   auto found = rules_.find(valences);
   if (found == rules_.end()) {
     found = rules_.emplace(valences, build(valences)).first;
-    found->second.threefold = threefold_points(found->second);
+    PatchRule &rule = found->second;
+    if (LimitBasis(valences).is_regular()) rule.threefold = threefold_points(rule.weight, rule.area_weight, rule.rows);
   }
   return found->second;
 }

@@ -18,6 +18,7 @@
 #include "membrane_regularization.h"
 
 #include "membrane_corner_forces.h"
+#include "membrane_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -82,16 +83,40 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
                                      std::vector<double> &energy, std::vector<double> &virial)
 {
   double worst = 1.0;
-  for (int s = 0; s < group.nfaces; ++s) {
-    const int slot = group.first_slot + s;
-    if (modulus[slot] == 0.0) continue;
-    const FaceCorners corners(group, s, x);
-    Vector3d gradient[2];
-    const double ratio = distortion(corners, gradient);
-    worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
-    if (!energy.empty()) energy[slot] += modulus[slot] * (ratio - 1.0);
-    corners.add({-modulus[slot] * gradient[0], -modulus[slot] * gradient[1]}, f,
-                of_slot(virial, slot));
+  Lane3 p[3], g[3];
+  for (int block = 0; block < group.nblocks(); ++block) {
+    const int slot = group.first_slot + block * LANES, faces = std::min(LANES, group.nfaces - block * LANES);
+    const Lane K = load(modulus, slot);
+    bool any = false;
+    for (int l = 0; l < faces; ++l) any = any || K[l] != 0.0;
+    if (!any) continue;
+
+    const int *points = &group.points[static_cast<size_t>(block) * group.rule->size * LANES];
+    gather(points, 3, x, p);
+    const Lane3 side[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
+    const Lane3 normal = cross(side[0], side[1]);
+    const Lane area = 0.5 * sqrt(dot(normal, normal));
+    Lane ratio = INVERSE_4_SQRT_3 * (dot(side[0], side[0]) + dot(side[1], side[1]) + dot(side[2], side[2])) / area;
+
+    // as in distortion(), K d(D/A); a face without K may have no area either
+
+    const Lane stretch = K * (2.0 * INVERSE_4_SQRT_3) / area, spread = 0.25 * K * ratio / (area * area);
+    for (int k = 0; k < 2; ++k) {
+      const Lane3 by = stretch * (side[(k + 1) % 3] - side[(k + 2) % 3]) - spread * cross(normal, side[k]);
+      g[k].x = K == 0.0 ? Lane{} : by.x;
+      g[k].y = K == 0.0 ? Lane{} : by.y;
+      g[k].z = K == 0.0 ? Lane{} : by.z;
+    }
+    g[2] = Lane3{} - g[0] - g[1];
+    ratio = K == 0.0 ? Lane{} + 1.0 : ratio;
+    for (int l = 0; l < faces; ++l) worst = std::max(worst, std::isfinite(ratio[l]) ? ratio[l] : INFINITY);
+    subtract(points, 3, faces, g, f);
+    if (!energy.empty()) store(energy, slot, load(energy, slot) + K * (ratio - 1.0));
+    if (virial.empty()) continue;
+    Lane v[6] = {};
+    for (int k = 1; k < 3; ++k) add_virial(p[k] - p[0], g[k], v);
+    for (int l = 0; l < LANES; ++l)
+      for (int i = 0; i < 6; ++i) virial[6 * (slot + l) + i] += v[i][l];
   }
   return worst;
 }

@@ -24,6 +24,7 @@ using namespace Membrane_NS;
 using Eigen::Vector3d;
 
 static constexpr int MOST_COLUMNS = 2048;    // in each direction
+static constexpr double FINER = 3.0;         // columns are narrower than triangles: few of these are over a point
 
 /* ---------------------------------------------------------------------- */
 
@@ -93,7 +94,7 @@ void SurfaceSide::fill_columns()
     const bool wrap = periodic_[side[m]];
     lo_[m] = wrap ? 0.0 : lo[m];
     const double extent = wrap ? 1.0 : hi[m] - lo[m];
-    const double wanted = width[m] > 0.0 ? extent / width[m] : 1.0;
+    const double wanted = width[m] > 0.0 ? FINER * extent / width[m] : 1.0;
     columns_[m] = std::clamp(static_cast<int>(std::min(wanted, 1.0e6)), 1, MOST_COLUMNS);
     inverse_width_[m] = extent > 0.0 ? columns_[m] / extent : 1.0;
   }
@@ -171,8 +172,8 @@ template <typename Crossing> void SurfaceSide::cross(const Vector3d &x, const Cr
     double corner[3][2];
     for (int k = 0; k < 3; ++k)
       for (int m = 0; m < 2; ++m) corner[k][m] = t.x[k][side[m]] + entry.shift[m];
-    bool left[3];
-    for (int k = 0; k < 3; ++k) {
+    bool left[3] = {false, false, false};
+    for (int k = 0; k < 3 && !(k == 2 && left[0] != left[1]); ++k) {
       const int l = (k + 1) % 3;
       left[k] = t.corner[k] < t.corner[l] ? left_of(p, corner[k], corner[l])
                                           : !left_of(p, corner[l], corner[k]);

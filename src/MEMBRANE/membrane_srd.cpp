@@ -185,8 +185,7 @@ void CollisionRule::prepare_rotation(int64_t number, uint64_t step, const double
   const double z = 2.0 * u[0] - 1.0, around = TWO_PI * u[1], flat = std::sqrt(1.0 - z * z);
   const double n[3] = {flat * std::cos(around), flat * std::sin(around), z};
   const double scale = settings_.thermostat ? thermal_scale(number, step, moments) : 1.0;
-  const double c = scale * std::cos(settings_.angle), s = scale * std::sin(settings_.angle),
-               e = scale - c;
+  const double c = scale * cos_angle_, s = scale * sin_angle_, e = scale - c;
   r[0] = e * n[0] * n[0] + c;
   r[1] = e * n[0] * n[1] - s * n[2];
   r[2] = e * n[0] * n[2] + s * n[1];

@@ -14,6 +14,7 @@
 #ifndef LMP_MEMBRANE_SRD_H
 #define LMP_MEMBRANE_SRD_H
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -76,7 +77,10 @@ class CollisionRule {
     uint64_t seed = 1;
   };
 
-  explicit CollisionRule(const Settings &settings) : settings_(settings) {}
+  explicit CollisionRule(const Settings &settings) :
+      settings_(settings), cos_angle_(std::cos(settings.angle)), sin_angle_(std::sin(settings.angle))
+  {
+  }
   const Settings &settings() const { return settings_; }
   bool needs_offsets() const { return settings_.method == Method::AT_A; }
 
@@ -95,6 +99,7 @@ class CollisionRule {
 
  private:
   Settings settings_;
+  double cos_angle_, sin_angle_;
 
   void draw(const SRDParticles &particles, uint64_t step) const;
   double thermal_scale(int64_t number, uint64_t step, const double *moments) const;

@@ -17,7 +17,7 @@
 
 #include "membrane_threefold.h"
 
-#include "membrane_quadrature.h"
+#include "membrane_limit_basis.h"
 
 #include <cmath>
 
@@ -36,7 +36,7 @@ using Coefficients = double[LimitBasis::ROWS][CONTROL_POINTS];
    itself, the next one and the one before
 ------------------------------------------------------------------------- */
 
-void look_along(int axis, const PatchRule &rule, int point, Coefficients &out)
+void look_along(int axis, const double *rows, Coefficients &out)
 {
   // the directions of a and b in u and v: of axis 0 (1, 1) and (-1, 1), and turned from corner to corner
 
@@ -46,7 +46,7 @@ void look_along(int axis, const PatchRule &rule, int point, Coefficients &out)
     const int i = (axis + j) % 3, columns[4] = {corner(i), across(i), p(i), q(i)};
     for (int k = 0; k < 4; ++k) {
       double row[LimitBasis::ROWS];
-      for (int r = 0; r < LimitBasis::ROWS; ++r) row[r] = rule.row(point, r)[columns[k]];
+      for (int r = 0; r < LimitBasis::ROWS; ++r) row[r] = rows[r * CONTROL_POINTS + columns[k]];
       const double u = row[LimitBasis::DU], v = row[LimitBasis::DV];
       const double uu = row[LimitBasis::DUU], uv = row[LimitBasis::DUV], vv = row[LimitBasis::DVV];
       const int c = 3 * k + j;
@@ -113,26 +113,29 @@ ThreefoldPoint combine(const Coefficients &rows)
 
 /* ---------------------------------------------------------------------- */
 
-std::vector<ThreefoldPoint> Membrane_NS::threefold_points(const PatchRule &rule)
+std::vector<ThreefoldPoint> Membrane_NS::threefold_points(const std::vector<double> &weight,
+                                                          const std::vector<double> &area_weight,
+                                                          const std::vector<double> &rows)
 {
   std::vector<ThreefoldPoint> points;
-  if (rule.size != CONTROL_POINTS || rule.npoints % 3 != 0) return points;
+  const int npoints = static_cast<int>(weight.size());
+  const auto rows_of = [&](int q) { return rows.data() + static_cast<size_t>(q) * LimitBasis::ROWS * CONTROL_POINTS; };
   Coefficients first, other;
   int found = 0;
-  for (int q = 0; q < rule.npoints; ++q) {
-    look_along(0, rule, q, first);
+  for (int q = 0; q < npoints; ++q) {
+    look_along(0, rows_of(q), first);
     if (!is_symmetric(first)) continue;
     ++found;
     for (int axis : {1, 2})
-      for (int o = 0; o < rule.npoints; ++o) {
+      for (int o = 0; o < npoints; ++o) {
         if (o == q) continue;    // the middle is on all axes
-        look_along(axis, rule, o, other);
-        found += are_same(first, other) && rule.weight[o] == rule.weight[q] && rule.area_weight[o] == rule.area_weight[q];
+        look_along(axis, rows_of(o), other);
+        found += are_same(first, other) && weight[o] == weight[q] && area_weight[o] == area_weight[q];
       }
     points.push_back(combine(first));
-    points.back().weight = rule.weight[q];
-    points.back().area_weight = rule.area_weight[q];
+    points.back().weight = weight[q];
+    points.back().area_weight = area_weight[q];
   }
-  if (found != rule.npoints) points.clear();
+  if (found != npoints || 3 * static_cast<int>(points.size()) != npoints) points.clear();
   return points;
 }

@@ -18,8 +18,6 @@
 
 namespace Membrane_NS {
 
-struct PatchRule;
-
 /** Three points of a regular face, one on each axis of its symmetry, at the same place of it.
 
     Axis i goes from corner i to the middle of the edge across; there the parameters a along it and b to its left, of
@@ -49,8 +47,10 @@ namespace Threefold {
   constexpr int q(int i) { return 5 + 3 * i; }
 }
 
-/// The points of a rule in threes; none if it is not that of a regular face, or has other points besides.
-std::vector<ThreefoldPoint> threefold_points(const PatchRule &rule);
+/** The points of a rule of a regular face in threes; none if there are others besides. weight and area_weight: [points];
+    rows: [points][LimitBasis::ROWS][12]. */
+std::vector<ThreefoldPoint> threefold_points(const std::vector<double> &weight, const std::vector<double> &area_weight,
+                                             const std::vector<double> &rows);
 
 }    // namespace Membrane_NS
 

@@ -42,7 +42,6 @@ MeshTotals::MeshTotals(LAMMPS *lmp, const LocalMesh &mesh) : Pointers(lmp), mesh
 void MeshTotals::place_centres()
 {
   seen = mesh.stamp();
-  placed = false;
   const auto &topology = mesh->topology();
   parts.assign(topology.num_components(), Total());
   for (int v = 0; v < topology.num_vertices(); ++v) {
@@ -62,14 +61,10 @@ void MeshTotals::unwrap(int i, double *at) const
     domain->unmap(atom->x[i], atom->image[i], at);
 }
 
-bool MeshTotals::any_moved() const
+void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &model) const
 {
-  return std::any_of(atom->image, atom->image + atom->nlocal + atom->nghost,
-                     [](imageint image) { return image != NOT_MOVED; });
-}
-
-void MeshTotals::place_origins(const std::vector<FaceGroup> &groups, FaceModel &model, bool moved) const
-{
+  const bool moved = std::any_of(atom->image, atom->image + atom->nlocal + atom->nghost,
+                                 [](imageint image) { return image != NOT_MOVED; });
   for (const FaceGroup &group : groups)
     for (int s = 0, n = group.nslots(); s < n; ++s) {
       const Total &total = parts[component_of(group, s)];
@@ -100,8 +95,7 @@ void MeshTotals::place(const std::vector<FaceGroup> &groups, FaceModel &model)
   for (size_t c = 0; c < parts.size(); ++c)
     for (int k = 0; k < 3; ++k)
       parts[c].centre[k] = all[3 * c + k] / mesh->topology().num_vertices(static_cast<int>(c));
-  place_origins(groups, model, any_moved());
-  placed = false;
+  place_origins(groups, model);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -117,8 +111,7 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
   integrals.vector_area.resize(wanted.volume ? 3 * (size_t) nslots : 0);
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
-  const bool moved = wanted.volume && any_moved();
-  if (wanted.volume && (moved || !placed)) place_origins(groups, model, moved);
+  if (wanted.volume) place_origins(groups, model);
   for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
 
   constexpr int WIDTH = 9;
@@ -171,11 +164,9 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
     if (mesh->is_closed(c)) membrane.volume += total.volume;
   }
   if (!wanted.volume) return;
-  placed = !moved;
   for (const FaceGroup &group : groups)
-    for (int s = 0, slots = group.nslots(); s < slots; ++s) {
-      const int c = component_of(group, s);
-      double *origin = &model.origin[3 * (size_t) (group.first_slot + s)];
-      for (int k = 0; k < 3; ++k) origin[k] = moved ? origin[k] + shift[c][k] : parts[c].centre[k];
+    for (int s = 0, n = group.nslots(); s < n; ++s) {
+      const auto &d = shift[component_of(group, s)];
+      for (int k = 0; k < 3; ++k) model.origin[3 * (size_t) (group.first_slot + s) + k] += d[k];
     }
 }

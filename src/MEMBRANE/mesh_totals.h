@@ -45,7 +45,7 @@ class MeshTotals : protected Pointers {
     bool volume, curvature;
   };
   /** Collective. Areas, and what else is wanted, of the faces of these groups, of their components
-      and of their membranes, with the same model each time. A membrane's volume is that of its closed components. With volumes, the
+      and of their membranes. A membrane's volume is that of its closed components. With volumes, the
       model's origins are at the centres afterwards, moved to the periodic image each face is in. */
   void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
                Membrane_NS::FaceIntegrals &, const Wanted &);
@@ -67,12 +67,10 @@ class MeshTotals : protected Pointers {
   const LocalMesh &mesh;
   std::pair<bigint, bigint> seen{-1, -1};    // stamp of the mesh that parts are for
   std::vector<Total> parts, sums;
-  bool placed = false;    // the model's origins are at the centres, with all faces in the box itself
 
   void place_centres();
   void unwrap(int i, double *at) const;
-  bool any_moved() const;
-  void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &, bool moved) const;
+  void place_origins(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -759,7 +759,7 @@ TEST(Threefold, PointsAreFoundInTheRulesOfThreeAndSixPointsOfARegularFace)
     EXPECT_TRUE(shared_rules(Quadrature::SIX).get(valences).threefold.empty());
   PatchRule lopsided = shared_rules(Quadrature::SIX).get({6, 6, 6});
   lopsided.weight[2] *= 1.0 + 1e-6;
-  EXPECT_TRUE(threefold_points(lopsided).empty());
+  EXPECT_TRUE(threefold_points(lopsided.weight, lopsided.area_weight, lopsided.rows).empty());
 }
 
 TEST(Threefold, PointsGiveWhatRowsTimesControlPointsGive)
