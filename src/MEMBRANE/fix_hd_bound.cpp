@@ -225,11 +225,12 @@ void FixHDBound::find_members()
 void FixHDBound::look_ahead(size_t a) const
 {
   auto ahead = [&](int steps) { return a + steps * AHEAD < members.size() ? members[a + steps * AHEAD] : -1; };
-  if (const int i = ahead(3); i >= 0) {
+  if (const int i = ahead(4); i >= 0) {
     sites.prefetch(i);
     __builtin_prefetch(atom->x[0] + 3 * static_cast<size_t>(i));
   }
-  if (const int i = ahead(2); i >= 0) limit->prefetch_face(sites[i].point.face);
+  if (const int i = ahead(3); i >= 0) limit->prefetch_face(sites[i].point.face);
+  if (const int i = ahead(2); i >= 0) limit->prefetch_stencil(sites[i].point.face);
   if (const int i = ahead(1); i >= 0) limit->prefetch_points(sites[i].point.face);
 }
 

@@ -22,19 +22,28 @@ namespace Membrane_NS {
 struct LaneJet {
   Lane3 r, u, v, uu, uv, vv;
 };
-/// The gradient of energies with respect to these: all but those for first derivatives are along the normal.
+/// What energies are made of, in the names of the derivation, and their gradient with respect to a LaneJet: for all but
+/// first derivatives it is along the normal.
 struct LaneGradient {
-  Lane3 u, v, a;
+  Lane3 a;
+  Lane J, inverse, E, F, G, L, M, N;    // |a|, 1/|a|, ...
+
+  Lane3 u, v;
   Lane r, uu, uv, vv;    // times a
-  Lane J, inverse;       // |a|, 1/|a|
 };
 
-// apart from what needs them, so that several points' roots and divisions go on at once
+/// The first part, apart from what needs it: so several points' roots and divisions go on at once.
 __attribute__((always_inline)) inline void find_normal(const LaneJet &at, LaneGradient &by)
 {
   const Lane3 a = cross(at.u, at.v);
   const Lane J = sqrt(dot(a, a));
   by.a = a;
+  by.E = dot(at.u, at.u);
+  by.F = dot(at.u, at.v);
+  by.G = dot(at.v, at.v);
+  by.L = dot(at.uu, a);
+  by.M = dot(at.uv, a);
+  by.N = dot(at.vv, a);
   by.J = J;
   by.inverse = 1.0 / J;
 }
@@ -175,8 +184,7 @@ template <bool GAUSS, bool VOLUME, bool MOMENT, bool LEAFLETS> class PointEnergi
   {
     const Lane3 a = by.a;
     const Lane J = by.J, inverse = by.inverse;
-    const Lane E = dot(at.u, at.u), F = dot(at.u, at.v), G = dot(at.v, at.v);
-    const Lane L = dot(at.uu, a), M = dot(at.uv, a), N = dot(at.vv, a);
+    const Lane E = by.E, F = by.F, G = by.G, L = by.L, M = by.M, N = by.N;
     const Lane3 B = G * at.uu - 2.0 * F * at.uv + E * at.vv;
     const Lane curvature = -(G * L - 2.0 * F * M + E * N) * inverse * inverse * inverse;    // 2H
     area += area_weight * J;

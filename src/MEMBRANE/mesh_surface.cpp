@@ -87,6 +87,13 @@ void LocalSurface::prefetch_face(int face) const
   __builtin_prefetch(&start_[face]);
 }
 
+void LocalSurface::prefetch_stencil(int face) const
+{
+  const int *stencil = &atom_of[start_[face]];
+  __builtin_prefetch(stencil);
+  __builtin_prefetch(stencil + (start_[face + 1] - start_[face] - 1));
+}
+
 void LocalSurface::prefetch_points(int face) const
 {
   if (found[face] != epoch) return;

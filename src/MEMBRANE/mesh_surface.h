@@ -41,9 +41,9 @@ class LocalSurface : public Membrane_NS::LimitSurface {
   /// communication cutoff does not reach them.
   const int *atoms(int face) const;
 
-  /// Have the processor read what it knows of a face, and then where its control points are, while it does something
-  /// else.
+  /// Have the processor read, while it does something else, what leads to a face's control points: one after the other.
   void prefetch_face(int face) const;
+  void prefetch_stencil(int face) const;
   void prefetch_points(int face) const;
 
   double memory_usage() const override;

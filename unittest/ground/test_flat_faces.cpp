@@ -291,8 +291,8 @@ TEST(Conformal, ResistsShearAsMuchAsWithoutConformal)
         one.points.assign(group.rule->size * LANES, 0);
         for (int k = 0; k < 3; ++k) one.point(0, k) = k;
         Points x = {p[0], p[1], p[2], out[0], out[1], out[2]}, f(6, Vector3d::Zero());
-        std::vector<double> e(1, 0.0), none;
-        scene.modulus.assign(1, 1.0);
+        std::vector<double> e(one.nslots(), 0.0), none;
+        scene.modulus.assign(one.nslots(), 1.0);
         scene.across = {3, 4, 5};
         scene.kernel(scene, one, reinterpret_cast<const double(*)[3]>(x.data()),
                      reinterpret_cast<double(*)[3]>(f.data()), e, none);
