@@ -63,7 +63,7 @@ class BoundSites {
   std::vector<BoundSite> sites;
 };
 
-/// Tells the place of a site in the present numbering of faces; face -1 if there is no such face any more.
+/// Puts a site into the present numbering of faces and order of corners; its face is -1 if there is no such face any more.
 void find_again(const class MeshFaces &, BoundSite &);
 
 }    // namespace LAMMPS_NS

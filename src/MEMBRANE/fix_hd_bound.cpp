@@ -42,7 +42,7 @@ static constexpr double REACH = 5.0;
 // of closest points, in mean edges: energies are then right to its square
 static constexpr double PRECISION = 1.0e-10;
 
-// particles
+// particles between one look at memory and the next, see look_ahead()
 static constexpr size_t AHEAD = 4;
 
 /* ---------------------------------------------------------------------- */
@@ -310,7 +310,7 @@ void FixHDBound::hold(int vflag)
   const bool dragging = carried && update->whichflag == 1;    // a minimization has energies alone
   if (dragging) drag_membrane();
   double **f = atom->f;
-  if (atom->nghost) std::fill_n(f[atom->nlocal], 3 * atom->nghost, 0.0);    // they have been sent already
+  if (atom->nghost && !dragging) std::fill_n(f[atom->nlocal], 3 * atom->nghost, 0.0);    // they have been sent already
   for (size_t a = 0; a < feet.size(); ++a) {
     const Foot &foot = feet[a];
     if (a + AHEAD < feet.size()) {
