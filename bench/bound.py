@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """What bound particles cost: the time of a step with them over that of the same step without.
 
-  bench/bound.py [--lmp build/lmp] [--level 5] [--particles 1000] [--steps 40] [--repeat 5] [--ranks 1]
+  bench/bound.py [--lmp build/lmp] [--level 5] [--particles 1000] [--steps 300] [--repeat 9] [--ranks 1]
   bench/bound.py --messages [--ranks 2]    what a rank sends in a step, by bench/messages.c, in place of times
 
-A vesicle of 10 * 4^level + 2 control points by fix hd/nve; particles by fix nve. The runs alternate, and medians of
-the ratios of successive runs are printed, with their range. "motion" is without holding, fix nve and ghosts alone.
+A vesicle of 10 * 4^level + 2 control points by fix hd/nve; particles by fix nve. Each run with particles is
+between two without, and medians of the ratios of its time and their mean are printed, with their range. "motion" is without holding, fix nve and ghosts alone.
 """
 
 import argparse
@@ -82,8 +82,8 @@ def main():
     parser.add_argument("--lmp", default="build/lmp")
     parser.add_argument("--level", type=int, default=5)
     parser.add_argument("--particles", type=int, default=1000)
-    parser.add_argument("--steps", type=int, default=40)
-    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--steps", type=int, default=300)
+    parser.add_argument("--repeat", type=int, default=9)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--messages", action="store_true")
     args = parser.parse_args()
@@ -95,9 +95,9 @@ def main():
     for name, bind in list(HOLDS.items()) + [("no particles, with the fix", None)]:
         ratios = []
         for _ in range(args.repeat):
-            bare = loop_time(args, 0, "")
+            before = loop_time(args, 0, "")
             with_it = loop_time(args, 0, HOLDS["spring"]) if bind is None else loop_time(args, args.particles, bind)
-            ratios.append(with_it / bare)
+            ratios.append(2 * with_it / (before + loop_time(args, 0, "")))
         print(f"  {name:<28}{statistics.median(ratios):.3f}  [{min(ratios):.3f}, {max(ratios):.3f}]", flush=True)
 
 

@@ -183,6 +183,7 @@ void FixHDBound::follow()
   }
   limit->forget_atoms();
   limit->follow_box();
+  followed = false;
   if (atom->nlocal + atom->nghost > allocated) {
     allocated = atom->nmax;
     memory->grow(work, allocated, 3, "hd/bind:work");
@@ -224,20 +225,23 @@ void FixHDBound::find_members()
 
 void FixHDBound::look_ahead(size_t a) const
 {
-  auto ahead = [&](int steps) { return a + steps * AHEAD < members.size() ? members[a + steps * AHEAD] : -1; };
-  if (const int i = ahead(4); i >= 0) {
+  if (a + 2 * AHEAD < members.size()) {
+    const int i = members[a + 2 * AHEAD];
     sites.prefetch(i);
     __builtin_prefetch(atom->x[0] + 3 * static_cast<size_t>(i));
   }
-  if (const int i = ahead(3); i >= 0) limit->prefetch_face(sites[i].point.face);
-  if (const int i = ahead(2); i >= 0) limit->prefetch_stencil(sites[i].point.face);
-  if (const int i = ahead(1); i >= 0) limit->prefetch_points(sites[i].point.face);
+  if (!followed || a + AHEAD >= members.size()) return;
+  const Foot &later = feet[a + AHEAD];
+  limit->prefetch(later.face);
+  for (int k = later.start; k < later.start + later.size; ++k)
+    __builtin_prefetch(atom->x[0] + 3 * static_cast<size_t>(last_points[k]));
 }
 
 void FixHDBound::find_feet()
 {
   feet.resize(members.size());
   weights.clear();
+  last_points.swap(points);
   points.clear();
   Membrane_NS::SurfaceWeights row;
   const double most = FARTHEST * limit->mean_edge();
@@ -247,9 +251,10 @@ void FixHDBound::find_feet()
     look_ahead(a);
     BoundSite &site = sites[i];
     limit->look_from(i);
+    if (followed && feet[a].face == site.point.face) limit->expect(site.point.face, &last_points[feet[a].start]);
     const Vector3d x = Vector3d::Map(atom->x[i]);
     const ClosestPoint closest = closest_point(*limit, x, site.point, precision);
-    const int face = closest.point.face, size = limit->stencil(face).size();
+    const int face = closest.point.face, size = limit->stencil_size(face);
     remember(i, closest);
     const double off = closest.distance - height * site.leaflet;
     if (!(std::fabs(off) <= most))
@@ -260,12 +265,14 @@ void FixHDBound::find_feet()
     squares += off * off;
     farthest = MAX(farthest, std::fabs(off));
     limit->weights<0>(closest.point, row);
-    feet[a] = {i, closest.normal, off, static_cast<int>(weights.size()), size, Vector3d::Zero()};
+    feet[a] = {i, face, closest.normal, off, static_cast<int>(weights.size()), size, Vector3d::Zero()};
     const int *local = limit->atoms(face);
     weights.insert(weights.end(), row.data(), row.data() + size);
     points.insert(points.end(), local, local + size);
     if (carried) feet[a].place = place_of(feet[a]);
   }
+  limit->expect(-1, nullptr);
+  followed = true;
 }
 
 void FixHDBound::update_feet()
@@ -394,6 +401,7 @@ FixHDBound *FixHDBound::named(LAMMPS *lmp, const std::string &id, const std::str
 
 double FixHDBound::memory_usage()
 {
-  return sites.memory_usage() + 6.0 * sizeof(double) * allocated +
+  return sites.memory_usage() + 6.0 * sizeof(double) * allocated + sizeof(Foot) * feet.capacity() +
+      sizeof(int) * (points.capacity() + last_points.capacity()) + sizeof(double) * weights.capacity() +
       (limit ? limit->memory_usage() : 0.0);
 }

@@ -157,7 +157,7 @@ class FixHDBound : public Fix {
   // === Of this rank, in a step
 
   struct Foot {
-    int atom;                 // owned
+    int atom, face;           // owned
     Eigen::Vector3d normal;
     double off;               // from its height, a length
     int start, size;          // of its weights
@@ -168,6 +168,8 @@ class FixHDBound : public Fix {
   std::vector<Foot> feet;     // of them
   std::vector<double> weights;
   std::vector<int> points;    // local indices
+  std::vector<int> last_points;
+  bool followed = false;      // feet and points are still those of members, as they were when last looked at
   double **work, **answer;    // [atoms][3], for exchange
   double **exchanged;         // what pack_reverse_comm() and pack_forward_comm() are of
   int allocated;

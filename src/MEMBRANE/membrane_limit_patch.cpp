@@ -92,9 +92,8 @@ LimitPatch::LimitPatch(const Valences &valences, const std::array<const CornerTa
   }
 }
 
-int LimitPatch::corner_at(double u, double v) const
+int LimitPatch::extraordinary_at(double u, double v) const
 {
-  if (regular_) return -1;
   const double t[3] = {1.0 - u - v, u, v};
   for (int k = 0; k < 3; ++k)
     if (valences_[k] != 6 && t[k] >= 1.0 - LimitBasis::CORNER_RADIUS) return k;

@@ -86,7 +86,7 @@ class LimitPatch {
   bool is_regular() const { return regular_; }
 
   /// The extraordinary corner that (u, v) is at, in the sense of LimitBasis, or -1.
-  int corner_at(double u, double v) const;
+  int corner_at(double u, double v) const { return regular_ ? -1 : extraordinary_at(u, v); }
   /// (u, v) moved from a corner to where LimitBasis takes derivatives instead.
   static void move_inside(int corner, double &u, double &v);
 
@@ -110,6 +110,8 @@ class LimitPatch {
     std::vector<double> weight;
     int rows() const { return static_cast<int>(start.size()) - 1; }
   };
+
+  int extraordinary_at(double u, double v) const;
 
   Valences valences_;
   int size_;

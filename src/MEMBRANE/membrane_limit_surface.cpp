@@ -51,6 +51,9 @@ void LimitSurface::set_box(const Matrix3d &lattice)
 {
   lattice_ = lattice;
   to_fraction_ = lattice.inverse();
+  surely_nearest2_ = INFINITY;
+  for (int k = 0; k < 3; ++k)
+    if (periodic_[k]) surely_nearest2_ = std::min(surely_nearest2_, 0.2499 / to_fraction_.row(k).squaredNorm());
 }
 
 LimitSurfaceOfMesh::LimitSurfaceOfMesh(const Topology &topology, const TriangleMesh &control) :
@@ -119,9 +122,8 @@ void LimitSurfaceOfMesh::measure()
   set_mean_edge(sum / std::max(topology_.num_edges(), 1));
 }
 
-Vector3d LimitSurface::nearest_image(const Vector3d &difference) const
+Vector3d LimitSurface::image_of(const Vector3d &difference) const
 {
-  if (!is_periodic()) return difference;
   Vector3d shift = to_fraction_ * difference;
   for (int k = 0; k < 3; ++k) shift[k] = periodic_[k] ? std::rint(shift[k]) : 0.0;
   return shift.isZero(0.0) ? difference : difference - lattice_ * shift;

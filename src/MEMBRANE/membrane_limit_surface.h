@@ -19,6 +19,7 @@
 #include "membrane_surface_point.h"
 #include "membrane_triangle_mesh.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -66,6 +67,9 @@ class LimitSurface {
   {
     return {stencil_.data() + start_[face], stencil_.data() + start_[face + 1]};
   }
+  int stencil_size(int face) const { return patch_[face]->size(); }
+  /// Has the processor read what evaluation needs to know of a face, while it does something else.
+  void prefetch(int face) const { __builtin_prefetch(&patch_[face]); }
   /// Where these are, in the images that belong to the face: x has room for MOST_STENCIL.
   void control_points(int face, Lane4 *x) const { gather(face, x); }
 
@@ -83,7 +87,10 @@ class LimitSurface {
   const std::array<bool, 3> &periodic() const { return periodic_; }
   const Eigen::Matrix3d &lattice() const { return lattice_; }
   /// The periodic image of a difference whose fractional coordinates lie within +-1/2.
-  Eigen::Vector3d nearest_image(const Eigen::Vector3d &difference) const;
+  Eigen::Vector3d nearest_image(const Eigen::Vector3d &difference) const
+  {
+    return difference.squaredNorm() < surely_nearest2_ ? difference : image_of(difference);
+  }
   /// The mean length of the edges between control points.
   double mean_edge() const { return mean_edge_; }
 
@@ -106,9 +113,11 @@ class LimitSurface {
 
  private:
   double mean_edge_ = 0.0;
+  double surely_nearest2_ = INFINITY;    // a difference with a smaller square needs no other image
   LimitPatches patches_;
   std::vector<const LimitPatch *> patch_;    // [faces]
 
+  Eigen::Vector3d image_of(const Eigen::Vector3d &difference) const;
   void make_piece(const SurfacePoint &p, SurfacePiece &piece) const;
 };
 

@@ -53,6 +53,7 @@ void LocalSurface::follow_box()
 
 const int *LocalSurface::atoms(int face) const
 {
+  if (face == expected_face) return expected;
   int *local = &atom_of[start_[face]];
   if (found[face] == epoch) return local;
   const IntSpan span = stencil(face);
@@ -73,32 +74,12 @@ const int *LocalSurface::atoms(int face) const
 
 void LocalSurface::gather(int face, Lane4 *x) const
 {
-  const int *local = atoms(face), size = start_[face + 1] - start_[face];
+  const int *local = atoms(face), size = stencil_size(face);
   const double *const place = lmp->atom->x[0];
   for (int k = 0; k < size; ++k) {
     const double *at = place + 3 * static_cast<size_t>(local[k]);
     x[k] = {at[0], at[1], at[2], 0.0};
   }
-}
-
-void LocalSurface::prefetch_face(int face) const
-{
-  __builtin_prefetch(&found[face]);
-  __builtin_prefetch(&start_[face]);
-}
-
-void LocalSurface::prefetch_stencil(int face) const
-{
-  const int *stencil = &atom_of[start_[face]];
-  __builtin_prefetch(stencil);
-  __builtin_prefetch(stencil + (start_[face + 1] - start_[face] - 1));
-}
-
-void LocalSurface::prefetch_points(int face) const
-{
-  if (found[face] != epoch) return;
-  for (int k = start_[face]; k < start_[face + 1]; ++k)
-    __builtin_prefetch(lmp->atom->x[0] + 3 * static_cast<size_t>(atom_of[k]));
 }
 
 double LocalSurface::memory_usage() const

@@ -41,17 +41,20 @@ class LocalSurface : public Membrane_NS::LimitSurface {
   /// communication cutoff does not reach them.
   const int *atoms(int face) const;
 
-  /// Have the processor read, while it does something else, what leads to a face's control points: one after the other.
-  void prefetch_face(int face) const;
-  void prefetch_stencil(int face) const;
-  void prefetch_points(int face) const;
+  /// Says what atoms(face) would find, which is then not looked up: of one face at a time, -1 for none.
+  void expect(int face, const int *local)
+  {
+    expected_face = face;
+    expected = local;
+  }
 
   double memory_usage() const override;
 
  private:
   class LAMMPS *lmp;
   DistributedMesh &mesh;
-  int epoch = 1, viewer = -1;
+  int epoch = 1, viewer = -1, expected_face = -1;
+  const int *expected = nullptr;
   mutable std::vector<int> atom_of, found;    // [as stencil_], [faces] epoch in which they were looked up
 
   void gather(int face, Membrane_NS::Lane4 *x) const override;
