@@ -48,6 +48,9 @@ static constexpr double MEASURE_TENSION = 0.75;
 
 static constexpr double SHEAR_FACTOR = 2.0, SHEAR_FLOOR = 1.0;
 
+// nothing resists the translation of a component, and where it is nobody asks: slower than its shape
+static constexpr double TRANSLATION = 25.0;
+
 /* ---------------------------------------------------------------------- */
 
 SamplingMass::SamplingMass(const VertexMasses &vertices, const Settings &settings) :
@@ -162,7 +165,7 @@ void SamplingMass::find_turning(const Topology &topology, const std::vector<doub
     for (int v : turning.vertices) square += normals_[v] * normals_[v].transpose();
     turning.inverse_square = square.inverse();
     const double a = 4.0 * M_PI / areas[c];
-    turning.mobility = settings_.unit / (4.0 * M_PI * a * kc / n);
+    turning.mobility = settings_.unit / (TRANSLATION * 4.0 * M_PI * a * kc / n);
     turning_.push_back(std::move(turning));
   }
 }

@@ -60,6 +60,18 @@ inline std::array<int, 3> nearest_image(const Domain &domain, double *d)
   return moved;
 }
 
+/// A difference with a smaller square is its nearest image, also after box edges have shrunk by a tenth.
+inline double surely_nearest_square(const Domain &domain)
+{
+  const double *inv = domain.h_inv;
+  const double rows[3] = {inv[0] * inv[0] + inv[5] * inv[5] + inv[4] * inv[4], inv[1] * inv[1] + inv[3] * inv[3],
+                          inv[2] * inv[2]};
+  double most = 0.0;
+  for (int k = 0; k < 3; ++k)
+    if (domain.periodicity[k] && rows[k] > most) most = rows[k];
+  return 0.2 / most;
+}
+
 }    // namespace LAMMPS_NS
 
 #endif

@@ -135,6 +135,18 @@ void DistributedMesh::refresh()
     MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (!changed) return;
 
+  // a mesh whose points move fast against the skin is often rebuilt with nothing new in it
+
+  if (lmp->update->whichflag != 0 && !lmp->update->setupflag && !stale) {
+    int other = !is_arranged_as_before();
+    MPI_Allreduce(MPI_IN_PLACE, &other, 1, MPI_INT, MPI_MAX, world);
+    if (!other) {
+      seen_ncalls = neighbor->ncalls;
+      seen_lastcall = neighbor->lastcall;
+      return;
+    }
+  }
+
   // rerun reads coordinates, perhaps without image flags, between update() and setup
 
   if (rebuilt && lmp->update->setupflag && pieces.has_moved()) pieces.update();
@@ -144,6 +156,7 @@ void DistributedMesh::refresh()
   seen_nlocal = atom->nlocal;
   seen_nghost = atom->nghost;
   ++local_epoch;
+  near2 = surely_nearest_square(*domain);
 
   faces_here.clear();
   points_here.clear();
@@ -158,13 +171,41 @@ void DistributedMesh::refresh()
 
 /* ---------------------------------------------------------------------- */
 
+// are local indices, of owned atoms and of images, those of the same atoms?
+
+bool DistributedMesh::is_arranged_as_before()
+{
+  const size_t n = atom->nlocal + atom->nghost;
+  std::vector<Seen> now(n);
+  bool same = seen_nlocal == atom->nlocal && seen.size() == n;
+  for (size_t i = 0; i < n; ++i) {
+    now[i] = {atom->tag[i], atom->type[i], atom->mask[i], {atom->x[i][0], atom->x[i][1], atom->x[i][2]}};
+    same = same && now[i].tag == seen[i].tag && now[i].type == seen[i].type && now[i].mask == seen[i].mask;
+    if (!same) continue;
+    double d[3];
+    for (int k = 0; k < 3; ++k) d[k] = now[i].x[k] - seen[i].x[k];
+    const auto moved = nearest_image(*domain, d);
+    same = !moved[0] && !moved[1] && !moved[2];
+  }
+  seen.swap(now);
+  return same;
+}
+
+/* ---------------------------------------------------------------------- */
+
 int DistributedMesh::find_neighbor(int i, int neighbor)
 {
   int j = atom->map(tags[neighbor]);
   if (j < 0) return -1;
-  j = domain->closest_image(i, j);
+  const double *const x = atom->x[i];
   double d[3];
-  for (int k = 0; k < 3; ++k) d[k] = atom->x[j][k] - atom->x[i][k];
+  auto is_surely_nearest = [&] {
+    for (int k = 0; k < 3; ++k) d[k] = atom->x[j][k] - x[k];
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < near2;
+  };
+  if (is_surely_nearest()) return j;
+  j = domain->closest_image(i, j);
+  if (is_surely_nearest()) return j;
   const auto moved = nearest_image(*domain, d);
   return moved[0] || moved[1] || moved[2] ? -1 : j;
 }
@@ -229,5 +270,5 @@ double DistributedMesh::memory_usage() const
 {
   return topo.memory_usage() + sizeof(tagint) * tags.capacity() +
       pieces.memory_usage() +
-      sizeof(int) * faces_here.capacity() + sizeof(OwnedPoint) * points_here.capacity();
+      sizeof(Seen) * seen.capacity() + sizeof(int) * faces_here.capacity() + sizeof(OwnedPoint) * points_here.capacity();
 }

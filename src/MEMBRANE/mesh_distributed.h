@@ -72,7 +72,7 @@ class DistributedMesh : public MeshFaces {
   /// Collective; call before using what follows in a time step; cheap unless LAMMPS has reneighboured
   /// since.
   void refresh();
-  /// Counts reneighbourings: local indices are valid as long as this stays the same.
+  /// Counts reneighbourings that changed the order of atoms here: local indices are valid as long as this stays the same.
   bigint epoch() const { return local_epoch; }
   const std::vector<int> &owned_faces() const { return faces_here; }
   /// Owned control points, in the order of atoms.
@@ -96,6 +96,8 @@ class DistributedMesh : public MeshFaces {
   double memory_usage() const;
 
  private:
+  bool is_arranged_as_before();
+
   bigint update_count = 0;
   MeshUnwrapped pieces;
   MeshLipids lipids_here;
@@ -103,6 +105,13 @@ class DistributedMesh : public MeshFaces {
   bool stale = true;
   bigint seen_ncalls = -1, seen_lastcall = -1, local_epoch = 0;
   int seen_nlocal = -1, seen_nghost = -1;
+  double near2 = 0.0;    // of differences that are surely of nearest images
+  struct Seen {
+    tagint tag;
+    int type, mask;
+    double x[3];
+  };
+  std::vector<Seen> seen;    // atoms at the last reneighbouring of a run
   std::vector<int> faces_here;
   std::vector<OwnedPoint> points_here;
 };

@@ -25,7 +25,9 @@ run             200 post no
 LAYOUTS = {    # ranks, before the box is made, before the run
     "1 rank": (1, "", ""),
     "1 rank, newton off": (1, "newton off", ""),
+    "1 rank, sorted in every step": (1, "atom_modify sort 1 0.3\nneigh_modify every 1 delay 0 check no", ""),
     "2 ranks": (2, "", ""),
+    "2 ranks, sorted in every step": (2, "atom_modify sort 1 0.3\nneigh_modify every 1 delay 0 check no", ""),
     "2 ranks, newton off": (2, "newton off", ""),
     "2 ranks, newton off on": (2, "newton off on", ""),
     "2 ranks, newton on off": (2, "newton on off", ""),
@@ -83,7 +85,7 @@ compare("three membranes, one sharing a type", SCENES["three membranes, one shar
 compare("tilted box, plane", SCENES["tilted box, plane"], every_layout)
 for name in ("sphere across the corner of the box", "cylinder", "valence 12",
              "tilted box, sphere across its corner"):
-    compare(name, SCENES[name], [layout for layout in ("1 rank", "2 ranks", "4 ranks, tiled, balance rcb")
+    compare(name, SCENES[name], [layout for layout in ("1 rank", "1 rank, sorted in every step", "2 ranks", "4 ranks, tiled, balance rcb")
                                         if layout in LAYOUTS])
 
 finish()
