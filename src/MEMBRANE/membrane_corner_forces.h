@@ -16,44 +16,78 @@
 
 
 #include "membrane_face_groups.h"
+#include "membrane_lanes.h"
 
-#include <Eigen/Dense>
+#include <algorithm>
 
 namespace Membrane_NS {
 
-/// The flat triangle of a face's control points, for energies of it.
-struct FaceCorners {
-  int point[3];
-  Eigen::Vector3d place[3];
+/// The flat triangles of the control points of a block of faces, for energies of these.
+struct CornerBlock {
+  int slot, faces;      ///< the first of the block, and how many it has
+  const int *points;    ///< [3][LANES]
+  Lane3 place[3];
+  Lane3 side[3];        ///< side k is that opposed to corner k, on to the next corner
+  Lane3 normal;         ///< of length twice the area
 
-  /// The s-th face of the group; x is [points][3].
-  FaceCorners(const FaceGroup &group, int s, const double (*x)[3])
+  CornerBlock(const FaceGroup &group, int block) :
+      slot(group.first_slot + block * LANES), faces(std::min(LANES, group.nfaces - block * LANES)),
+      points(&group.points[static_cast<size_t>(block) * group.rule->size * LANES])
   {
-    for (int k = 0; k < 3; ++k) {
-      point[k] = group.point(s, k);
-      place[k] = Eigen::Vector3d(x[point[k]]);
-    }
   }
 
-  /// Adds forces on the first two corners, and on the third what makes their sum zero, to f, [points][3],
-  /// and their virial (xx yy zz xy xz yz) to `virial` unless that is null.
-  void add(const Eigen::Vector3d (&force)[2], double (*f)[3], double *virial) const
+  /// Has some face of the block this weight?
+  bool any(const Lane &weight) const
   {
-    const Eigen::Vector3d on[3] = {force[0], force[1], -force[0] - force[1]};
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) f[point[k]][i] += on[k][i];
-    if (!virial) return;
-    for (int k = 1; k < 3; ++k) {
-      const Eigen::Vector3d r = place[k] - place[0];
-      virial[0] += r[0] * on[k][0];
-      virial[1] += r[1] * on[k][1];
-      virial[2] += r[2] * on[k][2];
-      virial[3] += r[0] * on[k][1];
-      virial[4] += r[0] * on[k][2];
-      virial[5] += r[1] * on[k][2];
-    }
+    bool some = false;
+    for (int l = 0; l < faces; ++l) some = some || weight[l] != 0.0;
+    return some;
+  }
+
+  /// x is [points][3].
+  void look(const double (*x)[3])
+  {
+    gather(points, 3, x, place);
+    for (int k = 0; k < 3; ++k) side[k] = place[(k + 2) % 3] - place[(k + 1) % 3];
+    normal = cross(side[0], side[1]);
+  }
+
+  /// The gradient of the area by corner k is this over 4 areas.
+  Lane3 area_gradient(int k) const { return cross(normal, side[k]); }
+
+  /// Subtracts gradients by the first two corners, and by the third what makes their sum zero, from f, [points][3],
+  /// and adds their virial (xx yy zz xy xz yz) to `virial`, by slot, unless that is empty.
+  void subtract_gradients(const Lane3 &first, const Lane3 &second, double (*f)[3], std::vector<double> &virial) const
+  {
+    const Lane3 g[3] = {first, second, Lane3{} - first - second};
+    subtract(points, 3, faces, g, f);
+    if (virial.empty()) return;
+    Lane v[6] = {};
+    for (int k = 1; k < 3; ++k) add_virial(place[k] - place[0], g[k], v);
+    add_virial_of(v, virial);
+  }
+
+  void add_energy(const Lane &e, std::vector<double> &energy) const
+  {
+    for (int l = 0; l < faces && !energy.empty(); ++l) energy[slot + l] += e[l];
+  }
+
+  void add_virial_of(const Lane (&v)[6], std::vector<double> &virial) const
+  {
+    for (int l = 0; l < faces; ++l)
+      for (int i = 0; i < 6; ++i) virial[6 * static_cast<size_t>(slot + l) + i] += v[i][l];
   }
 };
+
+/// a where there is a weight: without one a face may have no area either.
+inline Lane where(const Lane &weight, const Lane &a, double otherwise = 0.0)
+{
+  return weight == 0.0 ? Lane{} + otherwise : a;
+}
+inline Lane3 where(const Lane &weight, const Lane3 &a)
+{
+  return {where(weight, a.x), where(weight, a.y), where(weight, a.z)};
+}
 
 }    // namespace Membrane_NS
 

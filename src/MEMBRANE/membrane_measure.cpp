@@ -23,25 +23,20 @@
 #include <cmath>
 
 using namespace Membrane_NS;
-using Eigen::Vector3d;
 
 void Membrane_NS::measure_faces(const FaceGroup &group, const double (*x)[3],
                                 const std::vector<double> &weight, double (*f)[3],
                                 std::vector<double> &energy, std::vector<double> &virial)
 {
-  for (int s = 0; s < group.nfaces; ++s) {
-    const int slot = group.first_slot + s;
-    if (weight[slot] == 0.0) continue;
-    const FaceCorners corners(group, s, x);
-    const Vector3d *p = corners.place;
-    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    const double square = normal.squaredNorm();    // (2 A)^2
-    if (!energy.empty()) energy[slot] += weight[slot] * 0.5 * std::log(0.25 * square);
-
-    // dA/da = normal x (c - b)/(4 A)
-
-    const double pull = -weight[slot] / square;
-    const Vector3d force[2] = {pull * normal.cross(p[2] - p[1]), pull * normal.cross(p[0] - p[2])};
-    corners.add(force, f, virial.empty() ? nullptr : &virial[6 * static_cast<size_t>(slot)]);
+  for (int block = 0; block < group.nblocks(); ++block) {
+    CornerBlock corners(group, block);
+    const Lane w = load(weight, corners.slot);
+    if (!corners.any(w)) continue;
+    corners.look(x);
+    const Lane square = dot(corners.normal, corners.normal);    // (2 A)^2
+    for (int l = 0; l < corners.faces && !energy.empty(); ++l)
+      if (w[l] != 0.0) energy[corners.slot + l] += w[l] * 0.5 * std::log(0.25 * square[l]);
+    const Lane over = where(w, w / square);
+    corners.subtract_gradients(where(w, over * corners.area_gradient(0)), where(w, over * corners.area_gradient(1)), f, virial);
   }
 }

@@ -52,30 +52,23 @@ double Membrane_NS::face_uprightness(const double *const (&p)[3], const double *
   return normal.dot(around) < 0.0 ? -upright : upright;
 }
 
-// D/A of a face, and its gradient by the first two corners
+// D/A of faces, and its gradient by the first two corners: (d dirichlet - ratio d area)/area
 
-static double distortion(const FaceCorners &corners, Vector3d (&gradient)[2])
+static Lane distortion(const CornerBlock &corners, Lane3 (&gradient)[2])
 {
-  const Vector3d *p = corners.place;
-  const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-  const double area = 0.5 * normal.norm();
-  const double edges = (p[1] - p[0]).squaredNorm() + (p[2] - p[1]).squaredNorm() +
-      (p[0] - p[2]).squaredNorm();
-  const double ratio = INVERSE_4_SQRT_3 * edges / area;
-
-  // (d dirichlet - ratio d area)/area
-
-  const double stretch = 2.0 * INVERSE_4_SQRT_3 / area, spread = 0.25 * ratio / (area * area);
-  for (int k = 0; k < 2; ++k) {
-    const Vector3d &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-    gradient[k] = stretch * (2.0 * a - b - c) - spread * normal.cross(c - b);
-  }
+  const Lane3 *side = corners.side;
+  const Lane area = 0.5 * sqrt(dot(corners.normal, corners.normal)), inverse = 1.0 / area;
+  const Lane ratio = INVERSE_4_SQRT_3 * inverse * (dot(side[0], side[0]) + dot(side[1], side[1]) + dot(side[2], side[2]));
+  const Lane stretch = 2.0 * INVERSE_4_SQRT_3 * inverse, spread = 0.25 * ratio * inverse * inverse;
+  for (int k = 0; k < 2; ++k)
+    gradient[k] = stretch * (side[(k + 1) % 3] - side[(k + 2) % 3]) - spread * corners.area_gradient(k);
   return ratio;
 }
 
-static double *of_slot(std::vector<double> &virial, int slot)
+static double largest(const CornerBlock &corners, const Lane &ratio, double so_far)
 {
-  return virial.empty() ? nullptr : &virial[6 * static_cast<size_t>(slot)];
+  for (int l = 0; l < corners.faces; ++l) so_far = std::max(so_far, std::isfinite(ratio[l]) ? ratio[l] : INFINITY);
+  return so_far;
 }
 
 double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3],
@@ -83,40 +76,16 @@ double Membrane_NS::regularize_faces(const FaceGroup &group, const double (*x)[3
                                      std::vector<double> &energy, std::vector<double> &virial)
 {
   double worst = 1.0;
-  Lane3 p[3], g[3];
   for (int block = 0; block < group.nblocks(); ++block) {
-    const int slot = group.first_slot + block * LANES, faces = std::min(LANES, group.nfaces - block * LANES);
-    const Lane K = load(modulus, slot);
-    bool any = false;
-    for (int l = 0; l < faces; ++l) any = any || K[l] != 0.0;
-    if (!any) continue;
-
-    const int *points = &group.points[static_cast<size_t>(block) * group.rule->size * LANES];
-    gather(points, 3, x, p);
-    const Lane3 side[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
-    const Lane3 normal = cross(side[0], side[1]);
-    const Lane area = 0.5 * sqrt(dot(normal, normal));
-    Lane ratio = INVERSE_4_SQRT_3 * (dot(side[0], side[0]) + dot(side[1], side[1]) + dot(side[2], side[2])) / area;
-
-    // as in distortion(), K d(D/A); a face without K may have no area either
-
-    const Lane stretch = K * (2.0 * INVERSE_4_SQRT_3) / area, spread = 0.25 * K * ratio / (area * area);
-    for (int k = 0; k < 2; ++k) {
-      const Lane3 by = stretch * (side[(k + 1) % 3] - side[(k + 2) % 3]) - spread * cross(normal, side[k]);
-      g[k].x = K == 0.0 ? Lane{} : by.x;
-      g[k].y = K == 0.0 ? Lane{} : by.y;
-      g[k].z = K == 0.0 ? Lane{} : by.z;
-    }
-    g[2] = Lane3{} - g[0] - g[1];
-    ratio = K == 0.0 ? Lane{} + 1.0 : ratio;
-    for (int l = 0; l < faces; ++l) worst = std::max(worst, std::isfinite(ratio[l]) ? ratio[l] : INFINITY);
-    subtract(points, 3, faces, g, f);
-    if (!energy.empty()) store(energy, slot, load(energy, slot) + K * (ratio - 1.0));
-    if (virial.empty()) continue;
-    Lane v[6] = {};
-    for (int k = 1; k < 3; ++k) add_virial(p[k] - p[0], g[k], v);
-    for (int l = 0; l < LANES; ++l)
-      for (int i = 0; i < 6; ++i) virial[6 * (slot + l) + i] += v[i][l];
+    CornerBlock corners(group, block);
+    const Lane K = load(modulus, corners.slot);
+    if (!corners.any(K)) continue;
+    corners.look(x);
+    Lane3 gradient[2];
+    const Lane ratio = where(K, distortion(corners, gradient), 1.0);
+    worst = largest(corners, ratio, worst);
+    corners.add_energy(K * (ratio - 1.0), energy);
+    corners.subtract_gradients(where(K, K * gradient[0]), where(K, K * gradient[1]), f, virial);
   }
   return worst;
 }
@@ -164,27 +133,51 @@ std::vector<int> Membrane_NS::edge_families(const Topology &topology)
   return family;
 }
 
-// the sides of the two faces at the edge from corner k, in the order of l_1 l_2/(l_3 l_4)
+// The four sides of the two faces at each edge, in the order of l_1 l_2/(l_3 l_4): those of the face itself are
+// corners.side[k] and side[k + 1] with the edge from corner k.
 
-static std::array<Vector3d, 4> sides_at(const FaceCorners &corners, int k, const double *across)
-{
-  const Vector3d &p0 = corners.place[k], &p1 = corners.place[(k + 1) % 3], &p2 = corners.place[(k + 2) % 3];
-  const Map<const Vector3d> d(across);
-  return {p1 - p2, p0 - d, p2 - p0, d - p1};
-}
+namespace {
+
+struct EdgeSides {
+  int points[6 * LANES];    // of the corners, and across the edge from each
+  Lane3 across[3];
+  Lane3 one[3], other[3];    // by edge, the second and the fourth
+  Lane square[3], square_one[3], square_other[3];
+
+  EdgeSides(const CornerBlock &corners, const Lane &K, const std::vector<int> &far, const double (*x)[3])
+  {
+    std::copy_n(corners.points, 3 * LANES, points);
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < LANES; ++l)
+        points[(3 + k) * LANES + l] = l < corners.faces && K[l] != 0.0 ? far[3 * static_cast<size_t>(corners.slot + l) + k]
+                                                                        : corners.points[(k + 2) % 3 * LANES + l];
+    gather(points + 3 * LANES, 3, x, across);
+    for (int k = 0; k < 3; ++k) {
+      one[k] = corners.place[k] - across[k];
+      other[k] = across[k] - corners.place[(k + 1) % 3];
+      square[k] = dot(corners.side[k], corners.side[k]);
+      square_one[k] = dot(one[k], one[k]);
+      square_other[k] = dot(other[k], other[k]);
+    }
+  }
+};
+
+}    // namespace
 
 void Membrane_NS::cross_ratios(const FaceGroup &group, const double (*x)[3],
                                const std::vector<double> &modulus, const std::vector<int> &across,
                                std::vector<double> &logs)
 {
-  for (int s = 0; s < group.nfaces; ++s) {
-    const size_t slot = group.first_slot + s;
-    if (modulus[slot] == 0.0) continue;
-    const FaceCorners corners(group, s, x);
+  for (int block = 0; block < group.nblocks(); ++block) {
+    CornerBlock corners(group, block);
+    const Lane K = load(modulus, corners.slot);
+    if (!corners.any(K)) continue;
+    corners.look(x);
+    const EdgeSides sides(corners, K, across, x);
     for (int k = 0; k < 3; ++k) {
-      const auto side = sides_at(corners, k, x[across[3 * slot + k]]);
-      logs[3 * slot + k] = 0.5 * std::log(side[0].squaredNorm() * side[1].squaredNorm() /
-                                          (side[2].squaredNorm() * side[3].squaredNorm()));
+      const Lane square = sides.square[k] * sides.square_one[k] / (sides.square[(k + 1) % 3] * sides.square_other[k]);
+      for (int l = 0; l < corners.faces; ++l)
+        if (K[l] != 0.0) logs[3 * static_cast<size_t>(corners.slot + l) + k] = 0.5 * std::log(square[l]);
     }
   }
 }
@@ -196,52 +189,47 @@ double Membrane_NS::conformal_faces(const FaceGroup &group, const double (*x)[3]
                                     std::vector<double> &virial)
 {
   double worst = 1.0;
-  for (int s = 0; s < group.nfaces; ++s) {
-    const int slot = group.first_slot + s;
-    if (modulus[slot] == 0.0) continue;
-    const FaceCorners corners(group, s, x);
-    Vector3d gradient[2];
-    const double ratio = distortion(corners, gradient);
-    worst = std::max(worst, std::isfinite(ratio) ? ratio : INFINITY);
-    double *v = of_slot(virial, slot);
-    double law = PLAIN * (ratio - 1.0), slope = PLAIN;
-    if (ratio > BARRIER) {
-      law += (ratio - BARRIER) * (ratio - BARRIER) / ratio;
-      slope += 1.0 - BARRIER * BARRIER / (ratio * ratio);
-    }
-    slope *= -modulus[slot];
-    if (!energy.empty()) energy[slot] += modulus[slot] * law;
-    corners.add({slope * gradient[0], slope * gradient[1]}, f, v);
+  for (int block = 0; block < group.nblocks(); ++block) {
+    CornerBlock corners(group, block);
+    const Lane K = load(modulus, corners.slot);
+    if (!corners.any(K)) continue;
+    corners.look(x);
+    Lane3 gradient[2];
+    const Lane ratio = where(K, distortion(corners, gradient), 1.0);
+    worst = largest(corners, ratio, worst);
+    const Lane over = ratio > BARRIER ? ratio - BARRIER : Lane{};
+    const Lane slope = K * (PLAIN + over * (ratio + BARRIER) / (ratio * ratio));
+    Lane law = PLAIN * (ratio - 1.0) + over * over / ratio;
 
-    const double weight = modulus[slot] / 9.0;
+    const EdgeSides sides(corners, K, across, x);
+    Lane3 g[6];
+    for (int k = 0; k < 2; ++k) g[k] = slope * gradient[k];
+    g[2] = Lane3{} - g[0] - g[1];
+    const Lane3 logs_here = load3(logs, corners.slot);
+    const Lane log_ratio[3] = {logs_here.x, logs_here.y, logs_here.z}, weight = 2.0 / 9.0 * K;
+    Lane inverse[3];
+    for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / sides.square[k];
     for (int k = 0; k < 3; ++k) {
-      const int d = across[3 * static_cast<size_t>(slot) + k];
-      const auto side = sides_at(corners, k, x[d]);
-      double square[4];
-      for (int i = 0; i < 4; ++i) square[i] = side[i].squaredNorm();
-      const double cross = logs[3 * static_cast<size_t>(slot) + k];
-      if (!energy.empty()) energy[slot] += weight * cross * cross;
+      law += 1.0 / 9.0 * log_ratio[k] * log_ratio[k];
 
-      // each side pulls its two ends together, or pushes them apart
+      // by the two ends of each side
 
-      const double pull = 2.0 * weight * cross;
-      const Vector3d one = -pull / square[0] * side[0], two = -pull / square[1] * side[1],
-                     three = pull / square[2] * side[2], four = pull / square[3] * side[3];
-      const Vector3d on[4] = {two - three, one - four, three - one, four - two};
-      const int at[4] = {corners.point[k], corners.point[(k + 1) % 3], corners.point[(k + 2) % 3], d};
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 3; ++j) f[at[i]][j] += on[i][j];
-      if (!v) continue;
-      const Vector3d arm[4] = {one, two, three, four};
-      for (int i = 0; i < 4; ++i) {
-        v[0] += side[i][0] * arm[i][0];
-        v[1] += side[i][1] * arm[i][1];
-        v[2] += side[i][2] * arm[i][2];
-        v[3] += side[i][0] * arm[i][1];
-        v[4] += side[i][0] * arm[i][2];
-        v[5] += side[i][1] * arm[i][2];
-      }
+      const int next = (k + 1) % 3, last = (k + 2) % 3;
+      const Lane push = weight * log_ratio[k];
+      const Lane3 one = push * inverse[k] * corners.side[k], two = push / sides.square_one[k] * sides.one[k],
+                  three = push * inverse[next] * corners.side[next], four = push / sides.square_other[k] * sides.other[k];
+      g[k] += two - three;
+      g[next] = g[next] - one + four;
+      g[last] += one + three;
+      g[3 + k] = Lane3{} - two - four;
     }
+    for (Lane3 &by : g) by = where(K, by);
+    subtract(sides.points, 6, corners.faces, g, f);
+    corners.add_energy(where(K, K * law), energy);
+    if (virial.empty()) continue;
+    Lane v[6] = {};
+    for (int k = 1; k < 6; ++k) add_virial((k < 3 ? corners.place[k] : sides.across[k - 3]) - corners.place[0], g[k], v);
+    corners.add_virial_of(v, virial);
   }
   return worst;
 }
@@ -255,65 +243,95 @@ void Membrane_NS::add_dipoles(const FaceGroup &group, const double (*x)[3],
                               const std::vector<double> &origin, const std::vector<double> &modulus,
                               const std::vector<int> &component, std::vector<PointDipole> &dipoles)
 {
-  for (int s = 0; s < group.nfaces; ++s) {
-    const size_t slot = group.first_slot + s;
-    if (component[slot] < 0) continue;
-    PointDipole &dipole = dipoles[component[slot]];
-    const FaceCorners corners(group, s, x);
-    const Vector3d *p = corners.place;
-    const Vector3d centre = (p[0] + p[1] + p[2]) / 3.0 - Map<const Vector3d>(&origin[3 * slot]);
-    const double area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
-    dipole.faces += 1.0;
-    dipole.area += area;
-    dipole.modulus += modulus[slot];
-    dipole.centres += centre;
-    dipole.weighted += area * centre;
+  for (int block = 0; block < group.nblocks(); ++block) {
+    CornerBlock corners(group, block);
+    const int *of = &component[corners.slot];
+    if (std::all_of(of, of + corners.faces, [](int c) { return c < 0; })) continue;
+    corners.look(x);
+    const Lane area = 0.5 * sqrt(dot(corners.normal, corners.normal));
+    const Lane3 centre = 1.0 / 3.0 * (corners.place[0] + corners.place[1] + corners.place[2]) - load3(origin, corners.slot);
+    for (int l = 0; l < corners.faces; ++l) {
+      if (of[l] < 0) continue;
+      PointDipole &dipole = dipoles[of[l]];
+      const Vector3d here(centre.x[l], centre.y[l], centre.z[l]);
+      dipole.faces += 1.0;
+      dipole.area += area[l];
+      dipole.modulus += modulus[corners.slot + l];
+      dipole.centres += here;
+      dipole.weighted += area[l] * here;
+    }
   }
 }
+
+// What a dipole does to a face: dE = stiffness (2 d.dd - d^2 dA/A).
+
+namespace {
+
+struct DipoleLanes {
+  Lane3 d = {}, middle = {};
+  Lane stiffness = {}, part = {}, per_area = {};
+  int component[LANES];
+
+  DipoleLanes() { std::fill_n(component, LANES, -1); }
+
+  void put(int l, int c, const PointDipole &dipole)
+  {
+    if (component[l] == c) return;
+    component[l] = c;
+    set(d, l, dipole.moment());
+    set(middle, l, dipole.weighted / dipole.area);
+    stiffness[l] = DIPOLE * 4.0 * M_PI / dipole.area * dipole.modulus / dipole.faces;
+    part[l] = 1.0 / dipole.faces;
+    per_area[l] = 1.0 / dipole.area;
+  }
+
+ private:
+  static void set(Lane3 &lanes, int l, const Vector3d &a)
+  {
+    lanes.x[l] = a[0];
+    lanes.y[l] = a[1];
+    lanes.z[l] = a[2];
+  }
+};
+
+}    // namespace
 
 void Membrane_NS::hold_dipoles(const FaceGroup &group, const double (*x)[3],
                                const std::vector<double> &origin, const std::vector<int> &component,
                                const std::vector<PointDipole> &dipoles, double (*f)[3],
                                std::vector<double> &energy, std::vector<double> &virial)
 {
-  constexpr double FOUR_PI = 4.0 * M_PI;
-  int c = -1;
-  Vector3d d, middle;
-  double stiffness = 0.0, part = 0.0, per_area = 0.0;
-  for (int s = 0; s < group.nfaces; ++s) {
-    const size_t slot = group.first_slot + s;
-    if (component[slot] < 0) continue;
-    const PointDipole &dipole = dipoles[component[slot]];
-    if (component[slot] != c) {
-      c = component[slot];
-      d = dipole.moment();
-      stiffness = DIPOLE * FOUR_PI / dipole.area * dipole.modulus / dipole.faces;
-      part = 1.0 / dipole.faces;
-      per_area = 1.0 / dipole.area;
-      middle = dipole.weighted * per_area;
+  DipoleLanes dipole;
+  for (int block = 0; block < group.nblocks(); ++block) {
+    CornerBlock corners(group, block);
+    Lane has = {};
+    for (int l = 0; l < corners.faces; ++l) {
+      const int c = component[corners.slot + l];
+      if (c < 0) continue;
+      has[l] = 1.0;
+      dipole.put(l, c, dipoles[c]);
     }
-    if (!energy.empty()) energy[slot] += stiffness * d.squaredNorm() * part;
+    if (!corners.any(has)) continue;
+    corners.look(x);
+    const Lane area = 0.5 * sqrt(dot(corners.normal, corners.normal)), square = dot(dipole.d, dipole.d);
+    const Lane3 centre = 1.0 / 3.0 * (corners.place[0] + corners.place[1] + corners.place[2]) -
+        load3(origin, corners.slot) - dipole.middle;
+    corners.add_energy(where(has, dipole.stiffness * square * dipole.part), energy);
 
-    const FaceCorners corners(group, s, x);
-    const Vector3d *p = corners.place;
-    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    const double area = 0.5 * normal.norm();
-    const Vector3d centre = (p[0] + p[1] + p[2]) / 3.0 - Map<const Vector3d>(&origin[3 * slot]) - middle;
+    // its corners move the face as a whole, and change its area
 
-    // dE = stiffness (2 d.dd - d^2 dA/A): its corners move the face as a whole, and change its area
-
-    const Vector3d whole = -2.0 * stiffness * (part - area * per_area) * d;
-    const double tension = stiffness * (2.0 * d.dot(centre) + d.squaredNorm()) * per_area / (4.0 * area);
-    double *v = of_slot(virial, slot);
-    corners.add({tension * normal.cross(p[2] - p[1]), tension * normal.cross(p[0] - p[2])}, f, v);
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) f[corners.point[k]][i] += whole[i] / 3.0;
-    if (!v) continue;
-    v[0] += centre[0] * whole[0];
-    v[1] += centre[1] * whole[1];
-    v[2] += centre[2] * whole[2];
-    v[3] += centre[0] * whole[1];
-    v[4] += centre[0] * whole[2];
-    v[5] += centre[1] * whole[2];
+    const Lane3 whole = where(has, (2.0 * dipole.stiffness * (dipole.part - area * dipole.per_area)) * dipole.d);
+    const Lane tension = dipole.stiffness * (2.0 * dot(dipole.d, centre) + square) * dipole.per_area / (4.0 * area);
+    Lane3 g[3];
+    for (int k = 0; k < 2; ++k) g[k] = where(has, (Lane{} - tension) * corners.area_gradient(k));
+    g[2] = Lane3{} - g[0] - g[1];
+    if (!virial.empty()) {
+      Lane v[6] = {};
+      for (int k = 1; k < 3; ++k) add_virial(corners.place[k] - corners.place[0], g[k], v);
+      add_virial(where(has, centre), whole, v);
+      corners.add_virial_of(v, virial);
+    }
+    for (Lane3 &by : g) by += 1.0 / 3.0 * whole;
+    subtract(corners.points, 3, corners.faces, g, f);
   }
 }
