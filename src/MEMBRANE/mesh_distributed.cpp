@@ -137,8 +137,8 @@ void DistributedMesh::refresh()
 
   // a mesh whose points move fast against the skin is often rebuilt with nothing new in it
 
-  if (lmp->update->whichflag != 0 && !lmp->update->setupflag && !stale) {
-    int other = !is_arranged_as_before();
+  int other = !is_arranged_as_before();
+  if (rebuilt && !stale && lmp->update->whichflag != 0 && !lmp->update->setupflag) {
     MPI_Allreduce(MPI_IN_PLACE, &other, 1, MPI_INT, MPI_MAX, world);
     if (!other) {
       seen_ncalls = neighbor->ncalls;
@@ -171,7 +171,7 @@ void DistributedMesh::refresh()
 
 /* ---------------------------------------------------------------------- */
 
-// are local indices, of owned atoms and of images, those of the same atoms?
+// are local indices, of owned atoms and of images, those of the same atoms as when it was asked last?
 
 bool DistributedMesh::is_arranged_as_before()
 {

@@ -111,7 +111,7 @@ class DistributedMesh : public MeshFaces {
     int type, mask;
     double x[3];
   };
-  std::vector<Seen> seen;    // atoms at the last reneighbouring of a run
+  std::vector<Seen> seen;    // atoms at the last reneighbouring
   std::vector<int> faces_here;
   std::vector<OwnedPoint> points_here;
 };
