@@ -20,6 +20,8 @@
 #include "membrane_corner_forces.h"
 #include "membrane_lanes.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -20,6 +20,7 @@
 #include "membrane_random.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

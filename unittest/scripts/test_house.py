@@ -122,6 +122,18 @@ for name in sorted(files):
                 and not any(other == f"{header}.h" or other.startswith(f"{header}_") for other in seen)]
 claim("no file uses a class of LAMMPS whose header it gets by precompiled headers alone", not missing, missing)
 
+# What Eigen declares in Eigen/Core and defines in another header is undefined at the end, for the linker to find
+EIGEN = {"Geometry": r"\.cross\(", "LU": r"\.(inverse|determinant|partialPivLu|fullPivLu)\(\)",
+         "Cholesky": r"\bLD?LT<|\.ld?lt\(\)", "QR": r"HouseholderQR|HouseholderQr\(", "SVD": r"\b(Jacobi|BDC)SVD\b",
+         "Eigenvalues": r"\b\w*EigenSolver\b"}
+missing = []
+for name in sorted(files):
+    seen = reached(name, set()) | set(includes[name])
+    code = re.sub(r"//[^\n]*|/\*.*?\*/", "", files[name], flags=re.S)
+    missing += [f"{name}: Eigen/{header}" for header, use in EIGEN.items()
+                if re.search(use, code) and not {f"Eigen/{header}", "Eigen/Dense"} & seen]
+claim("no file uses what it has not included of Eigen", not missing, missing)
+
 # === Tests
 
 scripts = {os.path.basename(path): read(path) for path in glob.glob(os.path.join(TOP, "unittest", "scripts", "test_*.py"))}
