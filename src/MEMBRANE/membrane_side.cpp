@@ -26,6 +26,8 @@ using Eigen::Vector3d;
 static constexpr int MOST_COLUMNS = 2048;    // in each direction
 static constexpr double FINER = 3.0;         // columns are narrower than triangles: few of these are over a point
 
+static constexpr double INSIDE[2] = {0.3819660112501051, 0.5671432904097838};
+
 /* ---------------------------------------------------------------------- */
 
 SurfaceSide::SurfaceSide(const std::vector<Vector3d> &points, const std::vector<Face> &faces,
@@ -46,6 +48,7 @@ SurfaceSide::SurfaceSide(const std::vector<Vector3d> &points, const std::vector<
     triangles_.push_back(triangle);
   }
   fill_columns();
+  find_layers();
 
   // a ray through the middle of a triangle: through how many images in all, and what is behind it
 
@@ -140,6 +143,47 @@ void SurfaceSide::fill_columns()
 }
 
 /* ----------------------------------------------------------------------
+   Within a column the surface enters and leaves a layer through the sides only, so what a line along
+   the axis gains from below to above is the same everywhere, and one line tells it: not that in the
+   middle, which the edges of a symmetric mesh may meet
+------------------------------------------------------------------------- */
+
+void SurfaceSide::find_layers()
+{
+  std::vector<Layer> found;
+  first_layer_.assign(1, 0);
+  layers_.clear();
+  const int side[2] = {(axis_ + 1) % 3, (axis_ + 2) % 3};
+  for (int c = 0; c < columns_[0] * columns_[1]; ++c) {
+    found.clear();
+    for (int n = start_[c]; n < start_[c + 1]; ++n) {
+      const auto &x = triangles_[entries_[n].triangle].x;
+      const auto [lo, hi] = std::minmax({x[0][axis_], x[1][axis_], x[2][axis_]});
+      found.push_back({lo, hi - lo, 0});
+    }
+    std::sort(found.begin(), found.end(), [](const Layer &a, const Layer &b) { return a.lo < b.lo; });
+    for (const Layer &one : found) {
+      const bool joins = static_cast<int>(layers_.size()) > first_layer_.back() &&
+          one.lo <= layers_.back().lo + layers_.back().width;
+      if (!joins)
+        layers_.push_back(one);
+      else
+        layers_.back().width =
+            std::max(layers_.back().width, one.lo + one.width - layers_.back().lo);
+    }
+    Vector3d line = Vector3d::Zero();
+    line[side[0]] = lo_[0] + (c % columns_[0] + INSIDE[0]) / inverse_width_[0];
+    line[side[1]] = lo_[1] + (c / columns_[0] + INSIDE[1]) / inverse_width_[1];
+    cross(line, [&](const Entry &, double height, int sign) {
+      int l = static_cast<int>(layers_.size()) - 1;
+      while (l > first_layer_.back() && height < layers_[l].lo) --l;
+      layers_[l].rise += sign;
+    });
+    first_layer_.push_back(static_cast<int>(layers_.size()));
+  }
+}
+
+/* ----------------------------------------------------------------------
    on which side of the line from a to b a point is; where it is on the line, as if it were moved by
    (e, e^2) with a tiny e. The lesser vertex first, so that both triangles of an edge agree.
 ------------------------------------------------------------------------- */
@@ -152,20 +196,28 @@ static bool left_of(const double *p, const double *a, const double *b)
   return b[0] > a[0];
 }
 
+// the column of a point, and where it is sideways; -1 if beyond the surface
+
+int SurfaceSide::column(const Vector3d &x, double (&p)[2]) const
+{
+  int at[2];
+  for (int m = 0; m < 2; ++m) {
+    const int k = (axis_ + 1 + m) % 3;
+    p[m] = x[k];
+    if (periodic_[k]) p[m] -= std::floor(p[m]);
+    const double column = (p[m] - lo_[m]) * inverse_width_[m];
+    if (!(column >= 0.0 && column <= columns_[m])) return -1;
+    at[m] = std::min(static_cast<int>(column), columns_[m] - 1);
+  }
+  return at[1] * columns_[0] + at[0];
+}
+
 template <typename Crossing> void SurfaceSide::cross(const Vector3d &x, const Crossing &crossing) const
 {
   const int side[2] = {(axis_ + 1) % 3, (axis_ + 2) % 3};
   double p[2];
-  int at[2];
-  for (int m = 0; m < 2; ++m) {
-    p[m] = x[side[m]];
-    if (periodic_[side[m]]) p[m] -= std::floor(p[m]);
-    const double column = (p[m] - lo_[m]) * inverse_width_[m];
-    if (!(column > -1.0 && column < columns_[m] + 1.0)) return;
-    at[m] = std::clamp(static_cast<int>(std::floor(column)), 0, columns_[m] - 1);
-  }
-
-  const int c = at[1] * columns_[0] + at[0];
+  const int c = column(x, p);
+  if (c < 0) return;
   for (int n = start_[c]; n < start_[c + 1]; ++n) {
     const Entry &entry = entries_[n];
     const Triangle &t = triangles_[entry.triangle];
@@ -205,7 +257,20 @@ int SurfaceSide::images_below(double height, double surface) const
 
 int SurfaceSide::level(const Vector3d &x) const
 {
+  double p[2];
+  const int c = column(x, p);
+  if (c < 0) return 0;
   int n = 0;
+  bool among = false;
+  for (int l = first_layer_[c]; l < first_layer_[c + 1]; ++l) {
+    const Layer &layer = layers_[l];
+    const double above = x[axis_] - layer.lo;
+    const double height = periodic_[axis_] ? above - std::floor(above) : above;
+    among = among || !(height > layer.width || height < 0.0);
+    n += layer.rise * images_below(x[axis_], layer.lo);
+  }
+  if (!among) return n;
+  n = 0;
   cross(x, [&](const Entry &, double height, int sign) {
     n += sign * images_below(x[axis_], height);
   });

@@ -47,6 +47,8 @@ class SurfaceSide {
     std::vector<Triangle>().swap(triangles_);
     std::vector<Entry>().swap(entries_);
     std::vector<int>().swap(start_);
+    std::vector<Layer>().swap(layers_);
+    std::vector<int>().swap(first_layer_);
   }
 
   // === Images
@@ -68,6 +70,12 @@ class SurfaceSide {
     int triangle;
     double shift[2];
   };
+  /// The triangles in a column that overlap along the axis: who is not among them passes through
+  /// all of them on the way down, or through none.
+  struct Layer {
+    double lo, width;
+    int rise;    // of the level from below to above
+  };
   int axis_ = 2, degree_ = 0, behind_ = 0;
   std::array<bool, 3> periodic_ = {false, false, false};
   std::vector<Triangle> triangles_;
@@ -75,8 +83,12 @@ class SurfaceSide {
   int columns_[2] = {0, 0};
   std::vector<int> start_;
   std::vector<Entry> entries_;
+  std::vector<int> first_layer_;    // of each column
+  std::vector<Layer> layers_;
 
   void fill_columns();
+  void find_layers();
+  int column(const Eigen::Vector3d &x, double (&p)[2]) const;
   template <typename Crossing> void cross(const Eigen::Vector3d &x, const Crossing &crossing) const;
   int images_below(double height, double surface) const;
 };

@@ -18,86 +18,121 @@
 #include "membrane_srd_corners.h"
 
 #include "membrane_limit_basis.h"
-#include "membrane_srd_inverse_mask.h"
 #include "membrane_tessellation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 using namespace Membrane_NS;
+using Eigen::Vector3d;
 
-static constexpr double CUT_OFF = 1.0e-4;
+// what is left of weights that cancel
+static constexpr double ROUNDING = 1.0e-14;
 
 namespace {
 
 using Image = std::array<int, 3>;
+constexpr Image HERE = {0, 0, 0};
 
-/// Images of vertices next to one another, along the edges.
-class Images {
+Vector3d as_vector(const Image &n)
+{
+  return {double(n[0]), double(n[1]), double(n[2])};
+}
+
+/// A sum of weighted positions of masses near some place.
+struct Mean {
+  std::vector<SurfaceCorners::Entry> entries;    // ascending
+  double total;                                  // of the weights
+  Vector3d shift;    // in box vectors, if masses are where their vertices are
+};
+
+/// Adds up such sums.
+class MeanSum {
  public:
-  Images(const Topology &topology, const SurfaceCorners::Seams &seams) :
-      topology_(topology), seams_(seams), image_(seams.size()), seen_(seams.size(), 0)
-  {
-  }
+  explicit MeanSum(int num_masses) : weight_(num_masses, 0.0), has_(num_masses, 0) {}
 
-  /// From v to w, one of its ring.
-  Image along(int v, int w) const
+  /// Near the image of its place that is given, as seen from the place of the sum.
+  void add(double weight, const Mean &mean, const Image &image = HERE)
   {
-    const IntSpan ring = topology_.ring(v);
-    return seams_[v][std::find(ring.begin(), ring.end(), w) - ring.begin()];
+    for (const auto &[a, g] : mean.entries) {
+      if (!has_[a]) who_.push_back(a);
+      has_[a] = 1;
+      weight_[a] += weight * g;
+    }
+    total_ += weight * mean.total;
+    shift_ += weight * (mean.shift + mean.total * as_vector(image));
   }
-
-  /// Of the points of a stencil, as stencil_points() places them.
-  void of_stencil(const std::vector<int> &stencil, std::vector<Image> &images) const
+  /// The sum, and it is nothing again.
+  Mean take()
   {
-    images.assign(stencil.size(), {0, 0, 0});
-    topology_.along_stencil(stencil, [&](int column, int anchor) {
-      images[column] = along(stencil[anchor], stencil[column]);
-      for (int k = 0; k < 3; ++k) images[column][k] += images[anchor][k];
-    });
-  }
-
-  /// Of `wanted`, seen from a vertex by the fewest edges; calls use(vertex, image) for each.
-  template <typename Use> void from(int start, const int *wanted, size_t count, const Use &use)
-  {
-    std::vector<int> queue = {start};
-    image_[start] = {0, 0, 0};
-    seen_[start] = 1;
-    size_t missing = 0;
-    for (size_t i = 0; i < count; ++i) {
-      missing += wanted[i] != start;
-      seen_[wanted[i]] |= 2;
+    Mean sum = {{}, std::exchange(total_, 0.0), std::exchange(shift_, Vector3d::Zero())};
+    std::sort(who_.begin(), who_.end());
+    for (int a : who_) {
+      if (std::fabs(weight_[a]) > ROUNDING) sum.entries.emplace_back(a, weight_[a]);
+      weight_[a] = 0.0;
+      has_[a] = 0;
     }
-    for (size_t i = 0; i < queue.size() && missing > 0; ++i) {
-      const int v = queue[i];
-      const IntSpan ring = topology_.ring(v);
-      for (int j = 0; j < ring.size(); ++j) {
-        const int w = ring[j];
-        if (seen_[w] & 1) continue;
-        for (int k = 0; k < 3; ++k) image_[w][k] = image_[v][k] + seams_[v][j][k];
-        missing -= seen_[w] >> 1;
-        seen_[w] |= 1;
-        queue.push_back(w);
-      }
-    }
-    for (size_t i = 0; i < count; ++i) {
-      use(wanted[i], image_[wanted[i]]);
-      seen_[wanted[i]] = 0;
-    }
-    for (int v : queue) seen_[v] = 0;
+    who_.clear();
+    return sum;
   }
 
  private:
-  const Topology &topology_;
-  const SurfaceCorners::Seams &seams_;
-  std::vector<Image> image_;
-  std::vector<char> seen_;    // 1: by from(), 2: wanted
+  std::vector<double> weight_;
+  std::vector<char> has_;
+  std::vector<int> who_;
+  double total_ = 0.0;
+  Vector3d shift_ = Vector3d::Zero();
 };
 
-Eigen::Vector3d as_vector(const Image &n)
+/// For each vertex P and 1 - L P, see SurfaceCorners.
+struct NearInverse {
+  std::vector<Mean> inverse, rest;
+
+  NearInverse(const Topology &topology, int degree, const SurfaceCorners::Seams &seams)
+  {
+    const int n = topology.num_vertices();
+    MeanSum sum(n);
+    for (int v = 0; v < n; ++v) rest.push_back({{{v, 1.0}}, 1.0, Vector3d::Zero()});
+    inverse.assign(n, sum.take());
+    std::vector<Mean> next(n);
+    for (int power = 0; power <= degree; ++power) {
+      for (int v = 0; v < n; ++v) {
+        sum.add(1.0, inverse[v]);
+        sum.add(1.0, rest[v]);
+        inverse[v] = sum.take();
+
+        const IntSpan ring = topology.ring(v);
+        const double spokes = 1.0 - limit_mask_centre(ring.size());
+        sum.add(spokes, rest[v]);
+        for (int j = 0; j < ring.size(); ++j)
+          sum.add(-spokes / ring.size(), rest[ring[j]], seams.empty() ? HERE : seams[v][j]);
+        next[v] = sum.take();
+      }
+      std::swap(rest, next);
+    }
+  }
+};
+
+/// As many powers as levels, for corners as near to the surface as triangles are.
+int degree(int n)
 {
-  return {double(n[0]), double(n[1]), double(n[2])};
+  return static_cast<int>(std::floor(std::log2(n)));
+}
+
+/// Of the points of a stencil, as stencil_points() places them.
+void find_images(const Topology &topology, const SurfaceCorners::Seams &seams,
+                 const std::vector<int> &stencil, std::vector<Image> &images)
+{
+  images.assign(stencil.size(), HERE);
+  if (seams.empty()) return;
+  topology.along_stencil(stencil, [&](int column, int anchor) {
+    const int v = stencil[anchor];
+    const IntSpan ring = topology.ring(v);
+    images[column] = seams[v][std::find(ring.begin(), ring.end(), stencil[column]) - ring.begin()];
+    for (int k = 0; k < 3; ++k) images[column][k] += images[anchor][k];
+  });
 }
 
 }    // namespace
@@ -107,23 +142,19 @@ Eigen::Vector3d as_vector(const Image &n)
 SurfaceCorners::SurfaceCorners(const Topology &topology, int n, const Seams &seams) :
     num_masses_(topology.num_vertices())
 {
-  const bool periodic = !seams.empty();
-  Images images(topology, seams);
-  std::vector<Image> stencil_images;
-
   const FaceTessellation cut(n);
   const TessellationNumbering numbering(topology, n);
-  InverseMask inverse(topology);
   const int num_corners = numbering.num_points();
+  const NearInverse near(topology, degree(n), seams);
 
   // each corner is worked out on the first face that has it
 
-  std::vector<char> done(num_corners, 0);
-  std::vector<std::vector<Entry>> rows(num_corners);
+  std::vector<Mean> rows(num_corners);
   std::map<Valences, std::vector<LimitBasis::Weights>> known;
-  std::vector<double> sum(num_masses_, 0.0);
-  shifts_.assign(num_corners, Eigen::Vector3d::Zero());
-  std::vector<int> stencil, touched;
+  MeanSum sum(num_masses_);
+  std::vector<int> stencil;
+  std::vector<Image> images;
+  for (int a = 0; a < num_masses_; ++a) rows[a] = {{{a, 1.0}}, 1.0, Vector3d::Zero()};
   for (int f = 0; f < topology.num_faces(); ++f) {
     const Valences valences = topology.valences(f);
     auto [entry, is_new] = known.try_emplace(valences);
@@ -136,73 +167,29 @@ SurfaceCorners::SurfaceCorners(const Topology &topology, int n, const Seams &sea
           weights[cut.index(i, j)] = basis.evaluate(double(i) / n, double(j) / n);
     }
     topology.stencil(f, stencil);
-    if (periodic) images.of_stencil(stencil, stencil_images);
+    find_images(topology, seams, stencil, images);
 
     std::vector<int> number(cut.num_points());
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i + j <= n; ++i) {
         const int p = cut.index(i, j), c = number[p] = numbering.number(f, i, j);
-        if (done[c]) continue;
-        done[c] = 1;
-        if (c < num_masses_) {
-          rows[c] = {{c, 1.0}};
-          continue;
-        }
-        touched.clear();
-        for (size_t k = 0; k < stencil.size(); ++k) {
-          const double w = weights[p](LimitBasis::VALUE, k);
-          const auto &row = inverse.row(stencil[k]);
-          for (size_t a = 0; a < row.vertex.size(); ++a) {
-            if (sum[row.vertex[a]] == 0.0) touched.push_back(row.vertex[a]);
-            sum[row.vertex[a]] += w * row.weight[a];
-          }
-        }
-
-        // with z of control points in box vectors, a mass is at L z + its own spokes to images, and
-        // the corner at sum W (z + image)
-
-        if (periodic) {
-          for (size_t k = 0; k < stencil.size(); ++k)
-            shifts_[c] += weights[p](LimitBasis::VALUE, k) * as_vector(stencil_images[k]);
-          for (int a : touched) {
-            const int valence = topology.valence(a);
-            const double spoke = (1.0 - limit_mask_centre(valence)) / valence;
-            for (const Image &image : seams[a]) shifts_[c] -= sum[a] * spoke * as_vector(image);
-          }
-        }
-
-        // the smallest go, as long as they are little together; what they leave goes to the largest
-
-        std::sort(touched.begin(), touched.end(), [&sum](int a, int b) {
-          return std::make_pair(-std::fabs(sum[a]), a) < std::make_pair(-std::fabs(sum[b]), b);
-        });
-        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        size_t keep = touched.size();
-        for (double left = 0.0; keep > 1; --keep) {
-          left += std::fabs(sum[touched[keep - 1]]);
-          if (left > CUT_OFF) break;
-        }
-        double total = 0.0;
-        for (size_t k = 0; k < keep; ++k) {
-          rows[c].emplace_back(touched[k], sum[touched[k]]);
-          total += sum[touched[k]];
-        }
-        rows[c][0].second += 1.0 - total;
-        if (periodic && keep < touched.size())
-          images.from(touched[0], touched.data() + keep, touched.size() - keep,
-                      [&](int a, const Image &image) {
-                        shifts_[c] -= sum[a] * as_vector(image);
-                      });
-        for (int a : touched) sum[a] = 0.0;
+        if (!rows[c].entries.empty()) continue;
+        for (size_t k = 0; k < stencil.size(); ++k)
+          sum.add(weights[p](LimitBasis::VALUE, k), near.inverse[stencil[k]], images[k]);
+        const double share[3] = {double(n - i - j) / n, double(i) / n, double(j) / n};
+        for (int k = 0; k < 3; ++k)
+          if (share[k] > 0.0) sum.add(share[k], near.rest[stencil[k]], images[k]);
+        rows[c] = sum.take();
       }
     for (const Face &t : cut.triangles())
       triangles_.push_back({number[t[0]], number[t[1]], number[t[2]]});
   }
 
   start_.push_back(0);
-  for (const auto &row : rows) {
-    entries_.insert(entries_.end(), row.begin(), row.end());
+  for (const Mean &row : rows) {
+    entries_.insert(entries_.end(), row.entries.begin(), row.entries.end());
     start_.push_back(entries_.size());
+    shifts_.push_back(row.shift);
   }
   find_dependents();
 }
@@ -217,7 +204,7 @@ SurfaceCorners::SurfaceCorners(const SurfaceCorners &whole, const std::vector<in
     start_.push_back(entries_.size());
   }
   for (int c : corners) add(whole, masses, c);
-  shifts_.assign(num_masses_, Eigen::Vector3d::Zero());
+  shifts_.assign(num_masses_, Vector3d::Zero());
   for (int c : corners) shifts_.push_back(whole.shift(c));
   find_dependents();
 }

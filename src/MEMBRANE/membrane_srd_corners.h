@@ -27,12 +27,17 @@ namespace Membrane_NS {
 /** The corners of a finer triangulation of the limit surface, as means of the limit positions of
     the vertices, which are the point masses of the surface.
 
-    Faces are cut into n x n triangles with corners on the limit surface, numbered as in
-    tessellate(): the vertices come first. A corner is r_c = sum_i W_ci q_i with the weights of
-    LimitBasis, and q = L^-1 r with the limit mask L, so r_c = sum_a G_ca r_a, G = W L^-1. Rows of G
-    sum to 1 and fall off by two thirds from ring to ring; they are cut off where 1e-4 of them is
-    left, which keeps some 150 masses, and moves corners by less than 1e-3 of an edge. Depends on
-    the topology alone, and on which edges pass through the boundary of a periodic box. */
+    Faces are cut into n x n triangles with corners near the limit surface, numbered as in
+    tessellate(): the vertices come first, and are on it. There r_c = W q with the weights W of
+    LimitBasis, and r = L q with the limit mask L. L^-1 takes masses from far away, so in its place
+    stands P = 1 + E + ... + E^d, E = 1 - L, which differs from it for short waves only, and what it
+    does not give back at the vertices, 1 - L P = E^(d+1), is added, interpolated linearly:
+
+      r_c = G r,   G = W P + B E^(d+1),   B = barycentric coordinates in the face.
+
+    E is of the order of the curvature, and W - B of W E, so corners are off by the order of
+    h^4 for an edge h. Rows of G sum to 1. Depends on the topology alone, and on which edges pass
+    through the boundary of a periodic box. */
 class SurfaceCorners {
  public:
   using Entry = std::pair<int, double>;

@@ -26,6 +26,7 @@
 #include "membrane_side.h"
 #include "membrane_srd_corners.h"
 #include "membrane_tessellation.h"
+#include "scene.h"
 
 #include <gtest/gtest.h>
 
@@ -886,44 +887,177 @@ TEST(ApproachList, WhoFliesFromAnEmptyCubeMayMeetWhatComesTowardsIt)
   EXPECT_EQ(sheet.lists, 1);
 }
 
-TEST(SurfaceCorners, AreOnTheLimitSurface)
+/// Limit positions of the vertices.
+std::vector<Vector3d> limit_positions(const Topology &topology, const TriangleMesh &mesh)
 {
-  // valences 3 to 12 and a torus; r = L q and corners from r, against tessellate() from q
+  std::vector<Vector3d> limit;
+  for (size_t v = 0; v < mesh.points.size(); ++v) {
+    const double c = limit_mask_centre(topology.valence(v));
+    Vector3d r = c * mesh.points[v];
+    for (int u : topology.ring(v)) r += (1 - c) / topology.valence(v) * mesh.points[u];
+    limit.push_back(r);
+  }
+  return limit;
+}
+
+/// How far corners are from the limit surface, and the middles of edges of the triangles between
+/// corners on it.
+struct Distances {
+  double corners = 0.0, most = 0.0, triangles = 0.0;    // root mean squares, but for most
+};
+
+Distances distances(const TriangleMesh &mesh, int n)
+{
+  const Topology topology(mesh.points.size(), mesh.faces);
+  const std::vector<Vector3d> limit = limit_positions(topology, mesh);
+  const SurfaceCorners corners(topology, n);
+  const TessellatedSurface surface = tessellate(topology, mesh, n), finer = tessellate(topology, mesh, 2 * n);
+  EXPECT_EQ(corners.count(), (int) surface.mesh.points.size());
+  EXPECT_EQ(corners.triangles(), surface.mesh.faces);
+  Distances found;
+  for (int c = 0; c < corners.count(); ++c) {
+    Vector3d r = Vector3d::Zero();
+    double sum = 0.0;
+    for (const auto &[a, g] : corners.masses_of(c)) {
+      r += g * limit[a];
+      sum += g;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-14);
+    const Vector3d off = r - surface.mesh.points[c];
+    if (c < corners.num_masses()) {
+      EXPECT_LT(off.norm(), 1e-13);
+    }
+    const double distance = std::fabs(off.dot(surface.normals[c]));
+    found.corners += distance * distance / (corners.count() - corners.num_masses());
+    found.most = std::max(found.most, distance);
+  }
+  const TessellationNumbering number(topology, n), number_finer(topology, 2 * n);
+  const auto middle = [&](int f, int i, int j, int k, int l) {
+    const Vector3d flat = 0.5 * (surface.mesh.points[number.number(f, i, j)] +
+                                 surface.mesh.points[number.number(f, k, l)]);
+    const int p = number_finer.number(f, i + k, j + l);
+    const double distance = (flat - finer.mesh.points[p]).dot(finer.normals[p]);
+    found.triangles += distance * distance / (topology.num_faces() * 1.5 * n * (n + 1));
+  };
+  for (int f = 0; f < topology.num_faces(); ++f)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i + j < n; ++i) {
+        middle(f, i, j, i + 1, j);
+        middle(f, i, j, i, j + 1);
+        middle(f, i + 1, j, i, j + 1);
+      }
+  found.corners = std::sqrt(found.corners);
+  found.triangles = std::sqrt(found.triangles);
+  return found;
+}
+
+TEST(SurfaceCorners, AreNearerToTheLimitSurfaceThanTriangles)
+{
+  for (int level : {1, 2, 3})
+    for (int n : {2, 4, 8}) {
+      const Distances d = distances(icosphere(level, 1.0), n);
+      EXPECT_LT(d.corners, 0.2 * d.triangles) << level << ' ' << n;
+      EXPECT_LT(d.most, 0.7 * d.triangles) << level << ' ' << n;
+    }
+
+  // where all valences are 6, of sixth order with P = 1 + E
+
+  const Distances coarse = distances(torus(12, 8, 2.0, 0.7), 2), fine = distances(torus(24, 16, 2.0, 0.7), 2);
+  EXPECT_GT(coarse.corners, 40.0 * fine.corners);
+
+  // rough surfaces: noise, and a mesh of valences from 4 to 11 at the temperature of a bilayer
 
   Random random(10);
-  for (TriangleMesh mesh : {icosphere(1, 1.0), torus(12, 8, 2.0, 0.7)}) {
-    for (Vector3d &x : mesh.points) x += random.vector(0.05);
-    const Topology topology(mesh.points.size(), mesh.faces);
-    std::vector<Vector3d> limit;
-    for (size_t v = 0; v < mesh.points.size(); ++v) {
-      const double c = limit_mask_centre(topology.valence(v));
-      Vector3d r = c * mesh.points[v];
-      for (int u : topology.ring(v)) r += (1 - c) / topology.valence(v) * mesh.points[u];
-      limit.push_back(r);
+  TriangleMesh rough = torus(12, 8, 2.0, 0.7);
+  for (Vector3d &x : rough.points) x += random.vector(0.05);
+  const TriangleMesh thermal = Membrane_TEST::test_mesh("thermal_1800");
+  for (const TriangleMesh *mesh : {static_cast<const TriangleMesh *>(&rough), &thermal})
+    for (int n : {2, 4}) {
+      const Distances d = distances(*mesh, n);
+      EXPECT_LT(d.corners, (n == 2 ? 0.3 : 0.6) * d.triangles);
     }
-    for (int n : {1, 2, 4}) {
-      const SurfaceCorners corners(topology, n);
-      const TessellatedSurface surface = tessellate(topology, mesh, n);
-      ASSERT_EQ(corners.count(), (int) surface.mesh.points.size());
-      EXPECT_EQ(corners.triangles(), surface.mesh.faces);
-      for (int c = 0; c < corners.count(); ++c) {
-        Vector3d r = Vector3d::Zero();
-        double sum = 0.0;
-        for (const auto &[a, g] : corners.masses_of(c)) {
-          r += g * limit[a];
-          sum += g;
-        }
-        EXPECT_LT((r - surface.mesh.points[c]).norm(), 4e-4);    // edges are 0.5 and more
-        EXPECT_NEAR(sum, 1.0, 1e-14);
-      }
-      for (int a = 0; a < corners.num_masses(); ++a)
-        for (const auto &[c, g] : corners.corners_of(a)) {
-          double weight = 0.0;
-          for (const auto &[b, w] : corners.masses_of(c)) weight += b == a ? w : 0.0;
-          EXPECT_EQ(weight, g);
-        }
+}
+
+TEST(SurfaceCorners, AreFoundFromTheirMasses)
+{
+  const TriangleMesh mesh = icosphere(1, 1.0);
+  const SurfaceCorners corners(Topology(mesh.points.size(), mesh.faces), 4);
+  size_t found = 0;
+  for (int a = 0; a < corners.num_masses(); ++a)
+    for (const auto &[c, g] : corners.corners_of(a)) {
+      double weight = 0.0;
+      for (const auto &[b, w] : corners.masses_of(c)) weight += b == a ? w : 0.0;
+      EXPECT_EQ(weight, g);
+      ++found;
     }
+  size_t entries = 0;
+  for (int c = 0; c < corners.count(); ++c) entries += corners.masses_of(c).end() - corners.masses_of(c).begin();
+  EXPECT_EQ(found, entries);
+}
+
+TEST(SurfaceSide, LevelsAreThoseOfALineThroughAllTriangles)
+{
+  // in fractional coordinates: a torus and a vesicle that stick out of the box, a rough sheet, all in
+  // boxes with images and, the closed ones, without
+
+  Random random(12);
+  std::vector<std::pair<TriangleMesh, bool>> scenes;    // and whether it is closed
+  for (TriangleMesh mesh : {torus(16, 8, 0.3, 0.12), icosphere(2, 0.35)}) {
+    for (Vector3d &x : mesh.points) x += Vector3d(0.1, 0.2, 0.95) + random.vector(0.02);
+    scenes.emplace_back(mesh, true);
   }
+  TriangleMesh sheet;
+  const int n = 8;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      sheet.points.push_back(Vector3d(double(i) / n, double(j) / n, 0.98) + random.vector(0.04));
+      auto at = [&](int a, int b) { return (a % n) * n + b % n; };
+      sheet.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      sheet.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  scenes.emplace_back(sheet, false);
+
+  for (const auto &[mesh, closed] : scenes)
+    for (bool periodic : {true, false}) {
+      if (!closed && !periodic) continue;
+      for (int axis = closed ? 0 : 2; axis < 3; ++axis) {
+        const SurfaceSide side(mesh.points, mesh.faces, axis, {periodic, periodic, periodic});
+        const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+        std::array<int, 4> met = {};
+        for (int k = 0; k < how_many(2000); ++k) {
+          const Vector3d x = Vector3d::Constant(0.5) + random.vector(1.0);
+          int level = 0;
+          for (const Face &face : mesh.faces) {
+            Vector3d p[3];
+            for (int c = 0; c < 3; ++c) {
+              p[c] = mesh.points[face[c]] - mesh.points[face[0]];
+              if (periodic)
+                for (double &d : p[c]) d -= std::round(d);
+              p[c] += mesh.points[face[0]];
+            }
+            const int images = periodic ? 2 : 0;
+            for (int i = -images; i <= images; ++i)
+              for (int j = -images; j <= images; ++j) {
+                double area[3];
+                for (int c = 0; c < 3; ++c) {
+                  const Vector3d &from = p[c], &to = p[(c + 1) % 3];
+                  area[c] = (to[a] - from[a]) * (x[b] - from[b] - j) - (to[b] - from[b]) * (x[a] - from[a] - i);
+                }
+                if (!(area[0] > 0 && area[1] > 0 && area[2] > 0) && !(area[0] < 0 && area[1] < 0 && area[2] < 0))
+                  continue;
+                const double sum = area[0] + area[1] + area[2];
+                const double height =
+                    (area[1] * p[0][axis] + area[2] * p[1][axis] + area[0] * p[2][axis]) / sum;
+                const int below = periodic ? (int) std::ceil(x[axis] - height) : x[axis] > height;
+                level += sum > 0 ? below : -below;
+              }
+          }
+          ASSERT_EQ(side.level(x), level) << axis << ' ' << x.transpose();
+          ++met[level + 2 > 3 ? 3 : std::max(0, level + 2)];
+        }
+        EXPECT_GT(std::count_if(met.begin(), met.end(), [](int m) { return m > 0; }), 1);
+      }
+    }
 }
 
 TEST(CollisionEvents, NothingLeaksBetweenClosingSheets)
