@@ -21,7 +21,12 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <type_traits>
+
 using namespace Membrane_NS;
+
+static constexpr int MOST = 6;              // columns of a panel, whose numbers stay in registers
+static constexpr double ZEROS = 0.25;       // stored for each number that is not, at most
 
 /* ---------------------------------------------------------------------- */
 
@@ -32,48 +37,133 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &a)
     throw MeshError("the mass matrix cannot be factorized: its masses differ too much");
   const auto &permutation = factor.permutationP().indices();
   place_.assign(permutation.data(), permutation.data() + permutation.size());
-  const Eigen::SparseMatrix<double> columns = factor.matrixL();
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = columns;
-  const auto copy = [](const auto &g, Lines &lines, std::vector<double> *inverse_diagonal) {
-    lines.start.assign(1, 0);
-    for (int j = 0; j < g.outerSize(); ++j) {
-      for (typename std::decay_t<decltype(g)>::InnerIterator entry(g, j); entry; ++entry) {
-        if (entry.row() != entry.col()) {
-          lines.place.push_back(static_cast<int>(entry.index()));
-          lines.value.push_back(entry.value());
-        } else if (inverse_diagonal)
-          inverse_diagonal->push_back(1.0 / entry.value());
-      }
-      lines.start.push_back(static_cast<int>(lines.place.size()));
-    }
-  };
-  copy(columns, columns_, &inverse_diagonal_);
-  copy(rows, rows_, nullptr);
+  make_panels(factor.matrixL());
 }
 
 /* ----------------------------------------------------------------------
-   G y = P x by rows of G, from the first to the last, G^T z = y by its columns, from the last to the
-   first: each time what is known of the others is taken off, in four sums, so that one does not wait
-   for the other. Fields of a vertex are side by side in z
+   A column whose first row below the diagonal is that of the next column has all its other rows there,
+   too. So the next one joins its panel if that stores few zeros
 ------------------------------------------------------------------------- */
 
-template <class Number, int FIELDS>
-void SparseCholesky::eliminate(int j, const Lines &lines, Number *z) const
+void SparseCholesky::make_panels(const Eigen::SparseMatrix<double> &g)
 {
-  constexpr int SUMS = 4;
-  const int *place = lines.place.data(), last = lines.start[j + 1];
-  const double *value = lines.value.data();
-  Number sum[SUMS][FIELDS] = {};
-  for (int f = 0; f < FIELDS; ++f) sum[0][f] = z[FIELDS * j + f];
-  int k = lines.start[j];
-  for (; k + SUMS <= last; k += SUMS)
-    for (int i = 0; i < SUMS; ++i)
-      for (int f = 0; f < FIELDS; ++f) sum[i][f] -= value[k + i] * z[FIELDS * place[k + i] + f];
-  for (; k < last; ++k)
-    for (int f = 0; f < FIELDS; ++f) sum[0][f] -= value[k] * z[FIELDS * place[k] + f];
-  for (int f = 0; f < FIELDS; ++f)
-    z[FIELDS * j + f] =
-        inverse_diagonal_[j] * ((sum[0][f] + sum[1][f]) + (sum[2][f] + sum[3][f]));
+  const int n = static_cast<int>(g.cols()), *start = g.outerIndexPtr(), *row = g.innerIndexPtr();
+  const auto below = [start](int j) { return start[j + 1] - start[j] - 1; };
+  std::vector<int> place(n);    // of a row in a panel, from its first column on
+  for (int first = 0; first < n;) {
+    int last = first;
+    size_t numbers = 1 + below(first);
+    while (last + 1 < n && last + 1 < first + MOST && below(last) > 0 && row[start[last] + 1] == last + 1) {
+      const size_t width = last + 2 - first, more = numbers + 1 + below(last + 1);
+      const size_t stored = width * (width + 1) / 2 + width * below(last + 1);
+      if (stored - more > ZEROS * more) break;
+      numbers = more;
+      ++last;
+    }
+    const Panel panel = {first, last + 1 - first, static_cast<int>(row_.size()), below(last), value_.size()};
+    panels_.push_back(panel);
+    for (int j = first; j <= last; ++j) place[j] = j - first;
+    for (int k = start[last] + 1; k < start[last + 1]; ++k) {
+      place[row[k]] = panel.width + k - start[last] - 1;
+      row_.push_back(row[k]);
+    }
+    value_.resize(panel.value + (size_t) panel.width * (panel.width + panel.num_rows), 0.0);
+    for (int j = first; j <= last; ++j)
+      for (int k = start[j]; k < start[j + 1]; ++k) {
+        const double value = g.valuePtr()[k];
+        value_[panel.value + (size_t) panel.width * place[row[k]] + (j - first)] =
+            row[k] == j ? 1.0 / value : value;
+      }
+    first = last + 1;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   G y = P x panel by panel from the first to the last, each of which takes what is then known off the
+   rows below; G^T z = y from the last to the first, from which what is known of the rows below is taken
+   off. Fields of a vertex are side by side in z
+------------------------------------------------------------------------- */
+
+namespace {
+
+template <int WIDTH, class Number, int FIELDS>
+void forwards(const double *value, const int *row, int num_rows, Number *first, Number *z)
+{
+  Number y[WIDTH][FIELDS];
+  for (int k = 0; k < WIDTH; ++k)
+    for (int f = 0; f < FIELDS; ++f) {
+      Number sum = first[FIELDS * k + f];
+      for (int l = 0; l < k; ++l) sum -= value[WIDTH * k + l] * y[l][f];
+      first[FIELDS * k + f] = y[k][f] = value[WIDTH * k + k] * sum;
+    }
+  value += WIDTH * WIDTH;
+  for (int i = 0; i < num_rows; ++i, value += WIDTH) {
+    Number *below = z + (size_t) FIELDS * row[i];
+    for (int f = 0; f < FIELDS; ++f) {
+      Number sum = below[f];
+      for (int k = 0; k < WIDTH; ++k) sum -= value[k] * y[k][f];
+      below[f] = sum;
+    }
+  }
+}
+
+template <int WIDTH, class Number, int FIELDS>
+void backwards(const double *value, const int *row, int num_rows, Number *first, const Number *z)
+{
+  constexpr int SUMS = WIDTH * FIELDS < 3 ? 4 : WIDTH * FIELDS < 6 ? 2 : 1;    // that need not wait for each other
+  Number sum[SUMS][WIDTH][FIELDS] = {};
+  for (int k = 0; k < WIDTH; ++k)
+    for (int f = 0; f < FIELDS; ++f) sum[0][k][f] = first[FIELDS * k + f];
+  const double *rest = value + WIDTH * WIDTH;
+  int i = 0;
+  for (; i + SUMS <= num_rows; i += SUMS)
+    for (int s = 0; s < SUMS; ++s, rest += WIDTH) {
+      const Number *below = z + (size_t) FIELDS * row[i + s];
+      for (int k = 0; k < WIDTH; ++k)
+        for (int f = 0; f < FIELDS; ++f) sum[s][k][f] -= rest[k] * below[f];
+    }
+  for (; i < num_rows; ++i, rest += WIDTH)
+    for (int k = 0; k < WIDTH; ++k)
+      for (int f = 0; f < FIELDS; ++f) sum[0][k][f] -= rest[k] * z[(size_t) FIELDS * row[i] + f];
+  for (int s = 1; s < SUMS; ++s)
+    for (int k = 0; k < WIDTH; ++k)
+      for (int f = 0; f < FIELDS; ++f) sum[0][k][f] += sum[s][k][f];
+  for (int k = WIDTH - 1; k >= 0; --k)
+    for (int f = 0; f < FIELDS; ++f) {
+      Number &one = sum[0][k][f];
+      for (int l = k + 1; l < WIDTH; ++l) one -= value[WIDTH * l + k] * sum[0][l][f];
+      first[FIELDS * k + f] = one *= value[WIDTH * k + k];
+    }
+}
+
+/// Calls use(std::integral_constant<int, width>).
+template <int MOST_WIDTH, class Use> void with_width(int width, const Use &use)
+{
+  if constexpr (MOST_WIDTH > 1)
+    if (width < MOST_WIDTH) return with_width<MOST_WIDTH - 1>(width, use);
+  use(std::integral_constant<int, MOST_WIDTH>());
+}
+
+}    // namespace
+
+template <class Number, int FIELDS> void SparseCholesky::forwards(Number *z) const
+{
+  for (const Panel &p : panels_)
+    with_width<MOST>(p.width, [&](auto width) {
+      ::forwards<width.value, Number, FIELDS>(&value_[p.value], row_.data() + p.row, p.num_rows,
+                                              z + (size_t) FIELDS * p.first, z);
+    });
+}
+
+template <class Number, int FIELDS> void SparseCholesky::backwards(Number *z) const
+{
+  for (size_t i = panels_.size(); i-- > 0;) {
+    const Panel &p = panels_[i];
+    with_width<MOST>(p.width, [&](auto width) {
+      ::backwards<width.value, Number, FIELDS>(&value_[p.value], row_.data() + p.row, p.num_rows,
+                                               z + (size_t) FIELDS * p.first, z);
+    });
+  }
 }
 
 template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *, FIELDS> &x)
@@ -83,8 +173,8 @@ template <int FIELDS> void SparseCholesky::solve(const std::array<VertexField *,
   for (int i = 0; i < n; ++i)
     for (int f = 0; f < FIELDS; ++f) work_[FIELDS * place_[i] + f] = (*x[f])[i];
   Quad *z = reinterpret_cast<Quad *>(work_.data());
-  for (int j = 0; j < n; ++j) eliminate<Quad, FIELDS>(j, rows_, z);
-  for (int j = n - 1; j >= 0; --j) eliminate<Quad, FIELDS>(j, columns_, z);
+  forwards<Quad, FIELDS>(z);
+  backwards<Quad, FIELDS>(z);
   for (int i = 0; i < n; ++i)
     for (int f = 0; f < FIELDS; ++f) (*x[f])[i] = work_[FIELDS * place_[i] + f];
 }
@@ -97,8 +187,8 @@ void SparseCholesky::solve(std::vector<double> &x)
   const int n = size();
   scalar_work_.resize(n);
   for (int i = 0; i < n; ++i) scalar_work_[place_[i]] = x[i];
-  for (int j = 0; j < n; ++j) eliminate<double, 1>(j, rows_, scalar_work_.data());
-  for (int j = n - 1; j >= 0; --j) eliminate<double, 1>(j, columns_, scalar_work_.data());
+  forwards<double, 1>(scalar_work_.data());
+  backwards<double, 1>(scalar_work_.data());
   for (int i = 0; i < n; ++i) x[i] = scalar_work_[place_[i]];
 }
 
@@ -107,8 +197,7 @@ void SparseCholesky::colour(VertexField &x)
   const int n = size();
   work_.resize(n);
   for (int i = 0; i < n; ++i) work_[place_[i]] = x[i];
-  Quad *z = reinterpret_cast<Quad *>(work_.data());
-  for (int j = n - 1; j >= 0; --j) eliminate<Quad, 1>(j, columns_, z);
+  backwards<Quad, 1>(reinterpret_cast<Quad *>(work_.data()));
   for (int i = 0; i < n; ++i) x[i] = work_[place_[i]];
 }
 
@@ -117,18 +206,15 @@ void SparseCholesky::colour(std::vector<double> &x)
   const int n = size();
   scalar_work_.resize(n);
   for (int i = 0; i < n; ++i) scalar_work_[place_[i]] = x[i];
-  for (int j = n - 1; j >= 0; --j) eliminate<double, 1>(j, columns_, scalar_work_.data());
+  backwards<double, 1>(scalar_work_.data());
   for (int i = 0; i < n; ++i) x[i] = scalar_work_[place_[i]];
 }
 
 double SparseCholesky::memory_usage() const
 {
-  double bytes = sizeof(int) * place_.capacity() + sizeof(double) * inverse_diagonal_.capacity() +
-      sizeof(Vector4) * work_.capacity() + sizeof(double) * scalar_work_.capacity();
-  for (const Lines *lines : {&rows_, &columns_})
-    bytes += sizeof(int) * (lines->start.capacity() + lines->place.capacity()) +
-        sizeof(double) * lines->value.capacity();
-  return bytes;
+  return sizeof(int) * (place_.capacity() + row_.capacity()) + sizeof(Panel) * panels_.capacity() +
+      sizeof(double) * (value_.capacity() + scalar_work_.capacity()) +
+      sizeof(Vector4) * work_.capacity();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -38,23 +38,29 @@ class SparseCholesky {
   /// x = P^T G^-T x, so that white noise becomes noise with <x x^T> = A^-1
   void colour(VertexField &x);
   void colour(std::vector<double> &x);
-  /// Numbers in G.
-  size_t fill() const { return columns_.value.size() + place_.size(); }
+  /// Numbers of G that are stored.
+  size_t fill() const { return value_.size(); }
   double memory_usage() const;
 
  private:
   std::vector<int> place_;    // of a row of A in G
-  struct Lines {              // of G below its diagonal: where each begins, places in it, values
-    std::vector<int> start, place;
-    std::vector<double> value;
+  /** Columns of G side by side that are not zero in the same rows below, or nearly so: what is read
+      of these rows serves all columns. */
+  struct Panel {
+    int first, width;     // columns
+    int row, num_rows;    // the rows below, in row_
+    size_t value;         // of value_: width^2 on the diagonal, there inverse, then the rows below
   };
-  Lines rows_, columns_;
-  std::vector<double> inverse_diagonal_;
+  std::vector<Panel> panels_;
+  std::vector<int> row_;
+  std::vector<double> value_;
   VertexField work_;
   std::vector<double> scalar_work_;
 
+  void make_panels(const Eigen::SparseMatrix<double> &g);
+  template <class Number, int FIELDS> void forwards(Number *z) const;
+  template <class Number, int FIELDS> void backwards(Number *z) const;
   template <int FIELDS> void solve(const std::array<VertexField *, FIELDS> &x);
-  template <class Number, int FIELDS> void eliminate(int j, const Lines &lines, Number *z) const;
 };
 
 /** A matrix over all vertices of a mesh, factorized, for fields on the part of a rank. Every rank holds
