@@ -192,7 +192,7 @@ uncompute       f
 def conserve(chosen, dt, steps):
     """Spread of the total energy, and the worst residual and the passes of the mass matrix solution."""
     data = thermo(run(scene(chosen) + f"""
-fix             1 all hd/nve
+fix             1 all hd/nve solver iterative
 fix_modify      1 check no
 hd_velocity     all 1e-6 4711 tol 1e-13
 compute         T all hd/temp

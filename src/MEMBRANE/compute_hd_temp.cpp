@@ -66,7 +66,7 @@ void ComputeHDTemp::init()
   if (!settings_given)
     if (auto *integrator = FixHDBase::of_group(lmp, groupbit, "Compute hd/temp"))
       mass.settings = integrator->mass_settings();
-  mass.settings.direct = false;    // it solves nothing
+  mass.settings.solve_nothing();
   mass.init(true);
   binds.clear();
   for (auto &fix : modify->get_fix_by_style("^hd/bind$")) {

@@ -57,7 +57,7 @@ class FixHDBase : public Fix {
   /// several and their matrices differ.
   static FixHDBase *of_group(class LAMMPS *, int groupbit, const std::string &user);
   double drag_coefficient() const { return mass.drag_coefficient(); }
-  const Membrane_NS::MassOperator::Settings &mass_settings() const { return mass.settings; }
+  const HDMass::Settings &mass_settings() const { return mass.settings; }
   /// From now on, remember by how much drift() moves the control points in a step.
   void remember_displacement() { remembers = true; }
   /// By how much it has in the present step; the order is that of part().

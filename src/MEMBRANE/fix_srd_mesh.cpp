@@ -118,7 +118,7 @@ void FixSRDMesh::init_membranes()
 {
   if (auto *integrator = FixHDBase::of_group(lmp, group->bitmask[membrane], "Fix srd/mesh"))
     mass->settings = integrator->mass_settings();
-  mass->settings.direct = false;    // it solves nothing
+  mass->settings.solve_nothing();
   check_other_solvents();
   influences.check_box_movers(solvent, membrane);
   mass->init();

@@ -73,6 +73,7 @@ int HDMass::parse(int iarg, int narg, char **arg, bool integrates)
     if (value != "direct" && value != "iterative")
       error->all(FLERR, "{} solver {} is not iterative or direct", user, value);
     settings.direct = value == "direct";
+    settings.solver_given = true;
   } else {
     settings.tolerance = utils::numeric(FLERR, value, false, lmp);
     if (!(settings.tolerance >= 1.0e-14 && settings.tolerance <= 1.0e-2))
@@ -139,7 +140,9 @@ void HDMass::refresh()
   for (int v = 0; v < n; ++v) labels[v] = mesh().tag(v);
   try {
     const Membrane_NS::VertexMasses vertices = {mesh().topology(), part(), masses, labels};
-    mass = Membrane_NS::make_mass(vertices, settings);
+    auto chosen = settings;
+    if (!settings.solver_given) chosen.direct = points.suit_factors();
+    mass = Membrane_NS::make_mass(vertices, chosen);
     if (!modes) return;
     mass = std::make_unique<Membrane_NS::ModalMass>(vertices, std::move(mass), *modes, drag > 0.0, gram);
     gram = modal()->gram();

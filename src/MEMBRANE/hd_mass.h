@@ -33,7 +33,15 @@ class HDMass : protected Pointers {
 
   // === Settings, before init()
 
-  Membrane_NS::MassOperator::Settings settings;
+  struct Settings : Membrane_NS::MassOperator::Settings {
+    bool solver_given = false;    ///< or `direct` is what is faster
+    void solve_nothing()
+    {
+      direct = false;
+      solver_given = true;
+    }
+  };
+  Settings settings;
   /// One of the keywords mass, solver, tol and, for integrators, modes, relax: how many words it took; 0 if it is another keyword.
   int parse(int iarg, int narg, char **arg, bool integrates = false);
   /// Use this number for all vertices instead of the atoms' masses: a matrix of drag coefficients.

@@ -18,10 +18,14 @@
 #include "mesh_group.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "group.h"
 
 using namespace LAMMPS_NS;
+
+// vertices whose factors still fit into a third-level cache
+static constexpr bigint MOST_FACTORIZED = 15000;
 
 /* ---------------------------------------------------------------------- */
 
@@ -88,4 +92,11 @@ bool MeshGroup::follow(int rings)
   outdated = false;
   ++nparts;
   return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool MeshGroup::suit_factors() const
+{
+  return comm->nprocs == 1 && npoints <= MOST_FACTORIZED;
 }

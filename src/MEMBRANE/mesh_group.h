@@ -43,6 +43,8 @@ class MeshGroup : protected Pointers {
   bigint numbering() const { return nparts; }
   /// Control points of the group, on all ranks.
   bigint count() const { return npoints; }
+  /// Whether sparse factors of a matrix over them solve faster than passes over the mesh do.
+  bool suit_factors() const;
 
  private:
   int igroup, groupbit;

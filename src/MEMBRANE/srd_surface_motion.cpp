@@ -37,9 +37,6 @@ using Membrane_NS::VertexField;
 
 // relative residual of L x = b: far below the errors that conservation is tested to
 static constexpr double TOLERANCE = 1.0e-14;
-// with that, on one rank and for so many control points, a factorization solves in a third to a
-// half of the time of the passes
-static constexpr bigint MOST_DIRECT = 10000;
 
 /* ---------------------------------------------------------------------- */
 
@@ -123,9 +120,8 @@ void SurfaceMotion::follow_points()
 {
   constexpr int RINGS = 1;
   if (!points.follow(RINGS)) return;
-  const bool direct = comm->nprocs == 1 && points.count() <= MOST_DIRECT;
-  mask =
-      std::make_unique<LimitMask>(mesh().topology(), part(), LimitMask::Solver{direct, TOLERANCE});
+  mask = std::make_unique<LimitMask>(mesh().topology(), part(),
+                                     LimitMask::Solver{points.suit_factors(), TOLERANCE});
 }
 
 void SurfaceMotion::refresh()
