@@ -33,6 +33,7 @@ FixHDNVE::FixHDNVE(LAMMPS *lmp, int narg, char **arg) :
     FixHDBase(lmp, narg, arg), dtv(0.0), dtf(0.0)
 {
   dynamic_group_allow = 0;
+  mass.settings.quickest = true;
   int iarg = 3;
   while (iarg < narg) {
     if (const int used = mass.parse(iarg, narg, arg, true)) {

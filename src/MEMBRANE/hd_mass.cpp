@@ -73,7 +73,7 @@ int HDMass::parse(int iarg, int narg, char **arg, bool integrates)
     if (value != "direct" && value != "iterative")
       error->all(FLERR, "{} solver {} is not iterative or direct", user, value);
     settings.direct = value == "direct";
-    settings.solver_given = true;
+    settings.quickest = false;
   } else {
     settings.tolerance = utils::numeric(FLERR, value, false, lmp);
     if (!(settings.tolerance >= 1.0e-14 && settings.tolerance <= 1.0e-2))
@@ -141,7 +141,7 @@ void HDMass::refresh()
   try {
     const Membrane_NS::VertexMasses vertices = {mesh().topology(), part(), masses, labels};
     auto chosen = settings;
-    if (!settings.solver_given) chosen.direct = points.suit_factors();
+    if (settings.quickest) chosen.direct = points.suit_factors();
     mass = Membrane_NS::make_mass(vertices, chosen);
     if (!modes) return;
     mass = std::make_unique<Membrane_NS::ModalMass>(vertices, std::move(mass), *modes, drag > 0.0, gram);

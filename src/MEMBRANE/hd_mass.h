@@ -34,12 +34,10 @@ class HDMass : protected Pointers {
   // === Settings, before init()
 
   struct Settings : Membrane_NS::MassOperator::Settings {
-    bool solver_given = false;    ///< or `direct` is what is faster
-    void solve_nothing()
-    {
-      direct = false;
-      solver_given = true;
-    }
+    /// Direct if that is faster. Not where noise is drawn, which the solvers do to different
+    /// tolerances: a run is to be the same on any number of ranks.
+    bool quickest = false;
+    void solve_nothing() { direct = quickest = false; }
   };
   Settings settings;
   /// One of the keywords mass, solver, tol and, for integrators, modes, relax: how many words it took; 0 if it is another keyword.
