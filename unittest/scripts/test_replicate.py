@@ -24,7 +24,7 @@ thermo_modify   norm no format float %.17g
 thermo          30
 """
 FIXES = {
-    "hd/nve": "",
+    "hd/nve solver iterative": "",
     "hd/nve solver direct": "",
     "hd/nve mass consistent": "mass consistent",
     "hd/nve mass lumped": "mass lumped",
@@ -48,7 +48,7 @@ def difference(row, reference, times):
 for fix, mass in FIXES.items():
     start = SCENE + f"fix 1 all {fix}\n" + OUTPUT.format(mass=mass) + "run 30\n"
     _, alone, *_, alone_later = thermo(run(start + "run 30\n"))
-    for ranks in (1, 2, 4) if fix in ("hd/nve", "hd/brownian 0.5 4711 gamma_t 20") else (1, 2):
+    for ranks in (1, 2, 4) if fix in ("hd/nve solver iterative", "hd/brownian 0.5 4711 gamma_t 20") else (1, 2):
         _, one, many, later = thermo(run(start + "replicate 2 1 1\nrun 30\n", ranks=ranks))
         error = max(difference(one, alone, 1), difference(many, one, 2))
         claim(f"fix {fix}, {ranks} rank(s): two membranes have twice the energies of one right after replicate",
