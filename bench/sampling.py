@@ -109,7 +109,7 @@ for level in options.levels:
     long, longer = {2: (8000, 60000), 3: (8000, 30000), 4: (4000, 15000)}.get(level, (300, 1000))
     # name, fix, timestep or None: a part of the limit, steps, steps between samples
     for name, fix, dt, steps, every in (
-            ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 6.0} 4711 mass sampling", 1.0 if cold else 0.8 if level < 5 else 0.4, long, 1),
+            ("sampling", f"hd/langevin {kT} {kT} {0.6 if cold else 1.0} 4711 mass sampling", 1.0 if cold else 0.8 if level < 5 else 0.4, long, 1),
             ("sampling, hd/brownian", f"hd/brownian {kT} 4711 mass sampling", 0.8 if cold else 0.4 if level < 5 else 0.1, long, 1),
             ("lumped", f"hd/langevin {kT} {kT} 0.1 4711 mass lumped", None, longer, 10),
             ("vertex", f"hd/langevin {kT} {kT} 0.1 4711 mass vertex", None, longer, 10),
