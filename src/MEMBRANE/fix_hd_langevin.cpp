@@ -29,6 +29,9 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+// of mass sampling: both together bias averages, see Howto_membrane_accuracy
+static constexpr double LONG_STEP = 0.4, LITTLE_FRICTION = 2.0;
+
 /* ---------------------------------------------------------------------- */
 
 FixHDLangevin::FixHDLangevin(LAMMPS *lmp, int narg, char **arg) :
@@ -115,6 +118,11 @@ void FixHDLangevin::setup(int vflag)
   FixHDBase::setup(vflag);
   if (scaled && !mass.matrix().has_vertex_friction())
     error->all(FLERR, "Fix hd/langevin scale needs mass vertex or lumped");
+  if (sampling() && dt > LONG_STEP && damp > LITTLE_FRICTION && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix hd/langevin mass sampling: with the timestep {} and damp {} long waves lose some "
+                   "percent of their power: use damp 1, or a timestep of {}",
+                   dt, damp, LONG_STEP);
 }
 
 void FixHDLangevin::reset_dt()

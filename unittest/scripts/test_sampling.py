@@ -144,6 +144,11 @@ for dt, steps in ((0.4, 8000), (1.0, 8000)):
 (near, near_error, none), (far, far_error, some) = energies
 claim("averages are the same", none == 0 < some and abs(far - near) < 3.5 * math.hypot(near_error, far_error),
       f"{near:.3f}({near_error:.3f}) and {far:.3f}({far_error:.3f}) with {some:.0f} steps taken back")
+LOSES = "long waves lose some percent of their power: use damp 1, or a timestep of 0.4"
+words = {(dt, damp): run(SCENE + LANGEVIN.replace("1.5", damp) + f"timestep {dt}\nrun 0\n") for dt, damp in
+         (("0.8", "6"), ("0.8", "1"), ("0.4", "6"))}
+claim("long timesteps with little friction are warned of, and only these",
+      [LOSES in text for text in words.values()] == [True, False, False], words[("0.8", "6")][-300:])
 message = error_of(SCENE + LANGEVIN + "timestep 1.8\nrun 1000\n")
 claim("where one in ten would tear it, the run stops and says why", "would have torn the mesh and were taken back: the timestep "
       "1.8 is too long; hd_timestep finds the limit" in message, message[:160])
