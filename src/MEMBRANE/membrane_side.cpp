@@ -174,9 +174,11 @@ void SurfaceSide::find_layers()
     Vector3d line = Vector3d::Zero();
     line[side[0]] = lo_[0] + (c % columns_[0] + INSIDE[0]) / inverse_width_[0];
     line[side[1]] = lo_[1] + (c / columns_[0] + INSIDE[1]) / inverse_width_[1];
-    cross(line, [&](const Entry &, double height, int sign) {
+    cross(line, [&](const Entry &entry, double, int sign) {
+      const auto &x = triangles_[entry.triangle].x;
+      const double lo = std::min({x[0][axis_], x[1][axis_], x[2][axis_]});
       int l = static_cast<int>(layers_.size()) - 1;
-      while (l > first_layer_.back() && height < layers_[l].lo) --l;
+      while (lo < layers_[l].lo) --l;
       layers_[l].rise += sign;
     });
     first_layer_.push_back(static_cast<int>(layers_.size()));
