@@ -54,7 +54,7 @@ int main()
   std::printf("quadrature  bending  with kg  leaflets  ratios\n");
   for (Quadrature quadrature : {Quadrature::THREE, Quadrature::SIX, Quadrature::TWELVE}) {
     PatchRules rules(quadrature);
-    const auto groups = group_faces(topology, rules, faces);
+    FaceGroups groups = group_faces(topology, rules, faces);
     FaceModel model;
     model.resize(count_slots(groups));
     std::fill(model.kc.begin(), model.kc.end(), 1.0);
@@ -68,7 +68,7 @@ int main()
       for (int kind = 0; kind < 3; ++kind) {
         energies.leaflet_bend.resize(kind == 2 ? model.kc.size() : 0);
         const double start = processor_time();
-        for (const FaceGroup &group : groups) face_forces(group, x, model, terms[kind], f, energies);
+        face_forces(groups, x, model, terms[kind], f, energies);
         best[kind] = std::min(best[kind], (processor_time() - start) / faces.size());
       }
     std::printf("%-10s  %7.1f  %7.1f  %8.1f  %.3f %.3f\n", quadrature_name(quadrature).c_str(), best[0], best[1], best[2],

@@ -65,8 +65,8 @@ class Evaluation {
     energies_.bending.resize(model_.kc.size());
     integrals.area = integrals.volume = energies_.bending;
     forces();
+    face_integrals(groups_, reinterpret_cast<const double(*)[3]>(x_.data()), model_, integrals);
     for (const FaceGroup &group : groups_) {
-      face_integrals(group, reinterpret_cast<const double(*)[3]>(x_.data()), model_, integrals);
       points += group.rule->npoints * static_cast<double>(group.nfaces) / mesh.faces.size();
       for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) {
         bending += energies_.bending[slot];
@@ -81,8 +81,7 @@ class Evaluation {
   {
     force.assign(3 * x_.size(), 0.0);
     const double start = processor_time();
-    for (const FaceGroup &group : groups_)
-      face_forces(group, reinterpret_cast<const double(*)[3]>(x_.data()), model_, {},
+    face_forces(groups_, reinterpret_cast<const double(*)[3]>(x_.data()), model_, {},
                   reinterpret_cast<double(*)[3]>(force.data()), energies_);
     return processor_time() - start;
   }
@@ -90,7 +89,7 @@ class Evaluation {
  private:
   std::vector<Eigen::Vector3d> x_;
   Topology topology_;
-  std::vector<FaceGroup> groups_;
+  FaceGroups groups_;
   FaceModel model_;
   FaceEnergies energies_;
 };

@@ -150,7 +150,7 @@ void ComputeMembraneLipids::compute_vector()
 std::vector<double> ComputeMembraneLipids::bends()
 {
   const int nfaces = mesh->topology().num_faces();
-  const auto groups = mesh->local_groups(rules);
+  Membrane_NS::FaceGroups groups = mesh->local_groups(rules);
   const int nslots = count_slots(groups);
   Membrane_NS::FaceModel model;
   Membrane_NS::FaceIntegrals found;
@@ -159,11 +159,10 @@ std::vector<double> ComputeMembraneLipids::bends()
   found.curvature.resize(nslots);
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   std::vector<double> mine(nfaces, 0.0), bend(nfaces);
-  for (const FaceGroup &group : groups) {
-    face_integrals(group, x, model, found);
+  face_integrals(groups, x, model, found);
+  for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nfaces; ++s)
       mine[group.face[s]] = found.curvature[group.first_slot + s] / found.area[group.first_slot + s];
-  }
   MPI_Allreduce(mine.data(), bend.data(), nfaces, MPI_DOUBLE, MPI_SUM, world);
   return bend;
 }

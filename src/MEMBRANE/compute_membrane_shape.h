@@ -46,7 +46,7 @@ class ComputeMembraneShape : public Compute {
   MeshTotals totals;
   std::vector<int> members;    // membranes of the group, one to a row
 
-  std::vector<Membrane_NS::FaceGroup> groups;
+  Membrane_NS::FaceGroups groups;
   std::vector<int>
       beyond;    // [slots][3] local index of the point across the edge from each corner
   Membrane_NS::FaceModel model;

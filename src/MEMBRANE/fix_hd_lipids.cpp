@@ -272,7 +272,7 @@ void FixHDLipids::measure()
   found.area.resize(nslots);
   found.curvature.resize(nslots);
   found.curved_area.resize(nslots);
-  for (const FaceGroup &group : groups) face_integrals(group, x, bare, found);
+  face_integrals(groups, x, bare, found);
   Membrane_NS::FaceEnergies gauss;
   if (std::any_of(distance.begin(), distance.end(), [](double d) { return d > 0.0; })) {
     gauss.gauss.resize(nslots);
@@ -280,8 +280,7 @@ void FixHDLipids::measure()
     std::vector<double> forces(3 * static_cast<size_t>(nall), 0.0);
     Membrane_NS::FaceTerms terms;
     terms.gauss = true;
-    for (const FaceGroup &group : groups)
-      face_forces(group, x, bare, terms, reinterpret_cast<double(*)[3]>(forces.data()), gauss);
+    face_forces(groups, x, bare, terms, reinterpret_cast<double(*)[3]>(forces.data()), gauss);
   }
 
   const auto &topology = mesh->topology();

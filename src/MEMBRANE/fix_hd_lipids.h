@@ -72,7 +72,7 @@ class FixHDLipids : public Fix {
   class HelfrichModel *model;
   const class HelfrichLipids *composition;
   std::unique_ptr<Membrane_NS::PatchRules> rules;
-  std::vector<Membrane_NS::FaceGroup> groups;
+  Membrane_NS::FaceGroups groups;
   std::vector<int> types;                // by vertex
   std::vector<char> takes_part;          // by membrane
   std::vector<int> membrane_of;          // by face

@@ -353,10 +353,8 @@ void HelfrichModel::compute(const Wanted &wanted)
   const auto x = nall ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   const auto f = nall ? reinterpret_cast<double(*)[3]>(atom->f[0]) : nullptr;
   double points = 0.0;
-  for (const FaceGroup &group : scene.groups) {
-    face_forces(group, x, scene.model, kernel, f, scene.energies);
-    points += 1.0 * group.nfaces * group.rule->npoints;
-  }
+  face_forces(scene.groups, x, scene.model, kernel, f, scene.energies);
+  for (const FaceGroup &group : scene.groups) points += 1.0 * group.nfaces * group.rule->npoints;
   if (needs.volume) share_volume_recoil(f);
   for (HelfrichTerm *term : present) term->add_forces(scene, x, f);
   if (wanted.energy) collect(first_pass ? 2.0 * points : points);
@@ -413,7 +411,7 @@ void HelfrichModel::check_quadrature()
 
 double HelfrichModel::bending_energy(PatchRules &by)
 {
-  const auto groups = scene.mesh->local_groups(by, faces);
+  Membrane_NS::FaceGroups groups = scene.mesh->local_groups(by, faces);
   FaceModel model;
   Membrane_NS::FaceIntegrals found;
   found.bending.resize(count_slots(groups));
@@ -422,10 +420,9 @@ double HelfrichModel::bending_energy(PatchRules &by)
   const auto x =
       atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   double mine = 0.0, all;
-  for (const FaceGroup &group : groups) {
-    face_integrals(group, x, model, found);
+  face_integrals(groups, x, model, found);
+  for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nfaces; ++s) mine += found.bending[group.first_slot + s];
-  }
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

@@ -64,8 +64,7 @@ std::vector<Vector3d> HelfrichModel::gradient(int m, double Conjugates::*of,
   const auto f = nall ? reinterpret_cast<double(*)[3]>(force.data()) : nullptr;
   const bool volume = unit.pressure != 0.0;
   Membrane_NS::FaceEnergies none;
-  for (const FaceGroup &group : scene.groups)
-    face_forces(group, x, model, {false, volume, unit.moment != 0.0, false}, f, none);
+  face_forces(scene.groups, x, model, {false, volume, unit.moment != 0.0, false}, f, none);
   if (volume) share_volume_recoil(f);
   scene.conjugates = conjugates;
 

@@ -50,7 +50,7 @@ struct HelfrichScene {
 
   // === Faces of this rank
 
-  std::vector<Membrane_NS::FaceGroup> groups;
+  Membrane_NS::FaceGroups groups;
   Membrane_NS::FaceModel model;
   Membrane_NS::FaceIntegrals integrals;    ///< of the first pass, if there is one
   Membrane_NS::FaceEnergies energies;      ///< of the second

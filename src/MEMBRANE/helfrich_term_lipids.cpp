@@ -91,12 +91,11 @@ void HelfrichTermLipids::log(const std::vector<FaceGroup> &groups, const FaceMod
   const int n = static_cast<int>(unlogged.size());
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   std::vector<double> mine(n, 0.0), area(n);
-  for (const FaceGroup &group : groups) {
-    face_integrals(group, x, model, found);
+  Membrane_NS::FaceGroups faces = std::vector<FaceGroup>(groups);
+  face_integrals(faces, x, model, found);
+  for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nfaces; ++s)
-      for (int k = 0; k < 3; ++k)
-        mine[atom->type[group.point(s, k)]] += found.area[group.first_slot + s] / 3.0;
-  }
+      for (int k = 0; k < 3; ++k) mine[atom->type[group.point(s, k)]] += found.area[group.first_slot + s] / 3.0;
   MPI_Allreduce(mine.data(), area.data(), n, MPI_DOUBLE, MPI_SUM, world);
   for (int t = 1; t < n; ++t) {
     if (!unlogged[t] || !acts_on(t)) continue;

@@ -210,6 +210,37 @@ void SparseCholesky::colour(std::vector<double> &x)
   for (int i = 0; i < n; ++i) x[i] = scalar_work_[place_[i]];
 }
 
+// forwards for x alone, then back for both side by side: G is read twice and not three times
+
+template <class Number, class Field>
+void SparseCholesky::solve_and_colour(std::vector<Field> &work, std::vector<Field> &x, std::vector<Field> &z)
+{
+  const int n = size();
+  work.resize(3 * (size_t) n);
+  Field *alone = work.data(), *both = alone + n;
+  for (int i = 0; i < n; ++i) alone[place_[i]] = x[i];
+  forwards<Number, 1>(reinterpret_cast<Number *>(alone));
+  for (int i = 0; i < n; ++i) {
+    both[2 * place_[i]] = alone[place_[i]];
+    both[2 * place_[i] + 1] = z[i];
+  }
+  backwards<Number, 2>(reinterpret_cast<Number *>(both));
+  for (int i = 0; i < n; ++i) {
+    x[i] = both[2 * place_[i]];
+    z[i] = both[2 * place_[i] + 1];
+  }
+}
+
+void SparseCholesky::solve_and_colour(VertexField &x, VertexField &z)
+{
+  solve_and_colour<Quad>(work_, x, z);
+}
+
+void SparseCholesky::solve_and_colour(std::vector<double> &x, std::vector<double> &z)
+{
+  solve_and_colour<double>(scalar_work_, x, z);
+}
+
 double SparseCholesky::memory_usage() const
 {
   return sizeof(int) * (place_.capacity() + row_.capacity()) + sizeof(Panel) * panels_.capacity() +

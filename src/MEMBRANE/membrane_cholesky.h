@@ -38,6 +38,9 @@ class SparseCholesky {
   /// x = P^T G^-T x, so that white noise becomes noise with <x x^T> = A^-1
   void colour(VertexField &x);
   void colour(std::vector<double> &x);
+  /// x = A^-1 x and z coloured, in less than the time of one after the other.
+  void solve_and_colour(VertexField &x, VertexField &z);
+  void solve_and_colour(std::vector<double> &x, std::vector<double> &z);
   /// Numbers of G that are stored.
   size_t fill() const { return value_.size(); }
   double memory_usage() const;
@@ -61,6 +64,8 @@ class SparseCholesky {
   template <class Number, int FIELDS> void forwards(Number *z) const;
   template <class Number, int FIELDS> void backwards(Number *z) const;
   template <int FIELDS> void solve(const std::array<VertexField *, FIELDS> &x);
+  template <class Number, class Field>
+  void solve_and_colour(std::vector<Field> &work, std::vector<Field> &x, std::vector<Field> &z);
 };
 
 /** A matrix over all vertices of a mesh, factorized, for fields on the part of a rank. Every rank holds

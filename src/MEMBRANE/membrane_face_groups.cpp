@@ -34,6 +34,11 @@ int FaceGroup::nslots() const
   return nblocks() * LANES;
 }
 
+int FaceGroup::nwhole() const
+{
+  return rule->cut.empty() ? nblocks() : nfaces / LANES;
+}
+
 int &FaceGroup::point(int i, int k)
 {
   return points[(i / LANES * rule->size + k) * LANES + i % LANES];

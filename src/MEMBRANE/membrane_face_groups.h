@@ -44,6 +44,8 @@ struct FaceGroup {
   // not inline: who includes this may be compiled for another machine's vectors
   int nblocks() const;
   int nslots() const;
+  /// Blocks that are evaluated as they are: all, or all but the last if quarters of its faces join those of others.
+  int nwhole() const;
   /// The k-th control point of the i-th face of the group.
   int &point(int i, int k);
   int point(int i, int k) const;

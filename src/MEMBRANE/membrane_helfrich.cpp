@@ -25,7 +25,6 @@
 using namespace Membrane_NS;
 
 // beyond MOST_VALENCE graded rules have thousands of points and their derivative rows overflow
-static constexpr int MOST_POINTS = 3 * MOST_VALENCE - 6;    // control points of one face
 
 namespace {
 
@@ -311,9 +310,9 @@ template <class Choose> auto with_flag(bool flag, const Choose &choose)
 }
 
 template <int SIZE, class Integrals>
-void integrate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, BlockIntegrals &out)
+void integrate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, const Slots &slots, BlockIntegrals &out)
 {
-  Integrals sum(model, slot);    // and not `out`: sums stay in registers
+  Integrals sum(model, slots);    // and not `out`: sums stay in registers
   if constexpr (SIZE == THREEFOLD)
     integrate_threefold(rule, x, sum);
   else
@@ -322,9 +321,10 @@ void integrate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, in
 }
 
 template <int SIZE, class Energies>
-void evaluate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, int slot, Lane3 *g, BlockEnergies &out)
+void evaluate(const PatchRule &rule, const Lane3 *x, const FaceModel &model, const Slots &slots, Lane3 *g,
+              BlockEnergies &out)
 {
-  Energies sum(model, slot);
+  Energies sum(model, slots);
   if constexpr (SIZE == THREEFOLD)
     force_threefold(rule, x, sum, g);
   else
@@ -359,61 +359,131 @@ auto choose_evaluate(const PatchRule &rule, const FaceTerms &terms)
   });
 }
 
-}    // namespace
+// === One number of each face for its slot, or its share for that of the face that it is a part of
 
-/* ---------------------------------------------------------------------- */
+struct Results {
+  Slots slots;
+  int count;    // of faces
 
-void Membrane_NS::face_integrals(const FaceGroup &group, const double (*x)[3],
-                                 const FaceModel &model, FaceIntegrals &out)
+  // numbers of an array for each slot, of which lanes are one
+  void put(const Lane &lanes, std::vector<double> &array, int width = 1, int which = 0) const
+  {
+    if (array.empty()) return;
+    if (!slots.of && width == 1) return store(array, slots.first, lanes);
+    for (int l = 0; l < count; ++l) {
+      const int slot = slots.first + l;
+      if (slots.of)
+        array[(size_t) width * slots.of[slot] + which] += lanes[l];
+      else
+        array[(size_t) width * slot + which] = lanes[l];
+    }
+  }
+  void put(const Lane3 &lanes, std::vector<double> &array) const
+  {
+    put(lanes.x, array, 3, 0);
+    put(lanes.y, array, 3, 1);
+    put(lanes.z, array, 3, 2);
+  }
+};
+
+void clear(const FaceGroup &group, std::vector<double> &array, int width = 1)
+{
+  if (array.empty()) return;
+  const auto first = array.begin() + (size_t) width * (group.first_slot + group.nwhole() * LANES);
+  std::fill(first, first + (size_t) width * LANES, 0.0);
+}
+
+// parts: null, or by slot of the group the slot of the face
+
+void integrate_group(const FaceGroup &group, const int *parts, const double (*x)[3], const FaceModel &model, FaceIntegrals &out)
 {
   const PatchRule &rule = *group.rule;
   const bool volume = !out.volume.empty(), curved = !out.curvature.empty() || !out.bending.empty();
   const auto integrate_these = choose_integrate(rule, volume, curved);
 
-  Lane3 p[MOST_POINTS];
+  Lane3 p[MOST_STENCIL];
   BlockIntegrals sum;
-  for (int block = 0; block < group.nblocks(); ++block) {
-    const int slot = group.first_slot + block * LANES;
+  for (int block = 0; block < group.nwhole(); ++block) {
+    const Slots slots = {group.first_slot + block * LANES, parts};
     gather(&group.points[(size_t) block * rule.size * LANES], rule.size, x, p);
-    integrate_these(rule, p, model, slot, sum);
-    if (!out.area.empty()) store(out.area, slot, sum.area);
-    if (!out.curvature.empty()) store(out.curvature, slot, sum.curvature);
-    if (!out.curved_area.empty()) store(out.curved_area, slot, sum.curved_area);
-    if (!out.bending.empty()) store(out.bending, slot, sum.bending);
-    if (!volume) continue;
-    store(out.volume, slot, sum.volume);
-    if (!out.vector_area.empty()) store3(out.vector_area, slot, sum.vector_area);
+    integrate_these(rule, p, model, slots, sum);
+    const Results results = {slots, std::min(LANES, group.nfaces - block * LANES)};
+    results.put(sum.area, out.area);
+    results.put(sum.curvature, out.curvature);
+    results.put(sum.curved_area, out.curved_area);
+    results.put(sum.bending, out.bending);
+    results.put(sum.volume, out.volume);
+    results.put(sum.vector_area, out.vector_area);
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
-void Membrane_NS::face_forces(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                              const FaceTerms &terms, double (*f)[3], FaceEnergies &out)
+void force_group(const FaceGroup &group, const int *parts, const double (*x)[3], const FaceModel &model,
+                 const FaceTerms &terms, double (*f)[3], FaceEnergies &out)
 {
   const PatchRule &rule = *group.rule;
   const auto evaluate_these = choose_evaluate(rule, terms);
 
-  Lane3 p[MOST_POINTS], g[MOST_POINTS];
+  Lane3 p[MOST_STENCIL], g[MOST_STENCIL];
   BlockEnergies sum;
-  for (int block = 0; block < group.nblocks(); ++block) {
-    const int slot = group.first_slot + block * LANES;
+  for (int block = 0; block < group.nwhole(); ++block) {
+    const Slots slots = {group.first_slot + block * LANES, parts};
     const int *points = &group.points[(size_t) block * rule.size * LANES];
     gather(points, rule.size, x, p);
-    evaluate_these(rule, p, model, slot, g, sum);
+    evaluate_these(rule, p, model, slots, g, sum);
 
-    if (!out.bending.empty()) store(out.bending, slot, sum.bending);
-    if (!out.gauss.empty()) store(out.gauss, slot, sum.gauss);
-    if (!out.area.empty()) store(out.area, slot, sum.area);
-    if (!out.leaflet_bend.empty()) store(out.leaflet_bend, slot, sum.bend / sum.area);
+    const Results results = {slots, std::min(LANES, group.nfaces - block * LANES)};
+    results.put(sum.bending, out.bending);
+    results.put(sum.gauss, out.gauss);
+    results.put(sum.area, out.area);
+    results.put(sum.bend, out.leaflet_bend);
     if (!out.virial.empty()) {
-      const Lane3 origin = terms.volume ? load3(model.origin, slot) : p[0];
+      const Lane3 origin = terms.volume ? slots.place(model.origin) : p[0];
       Lane v[6] = {};
       for (int k = 0; k < rule.size; ++k) add_virial(p[k] - origin, g[k], v);
-      for (int l = 0; l < LANES; ++l)
-        for (int i = 0; i < 6; ++i) out.virial[6 * (slot + l) + i] = v[i][l];
+      for (int i = 0; i < 6; ++i) results.put(v[i], out.virial, 6, i);
     }
 
-    subtract(points, rule.size, std::min(LANES, group.nfaces - block * LANES), g, f);
+    subtract(points, rule.size, results.count, g, f);
   }
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::face_integrals(FaceGroups &groups, const double (*x)[3], const FaceModel &model, FaceIntegrals &out)
+{
+  for (const FaceGroup &group : groups) {
+    integrate_group(group, nullptr, x, model, out);
+    if (group.nwhole() == group.nblocks()) continue;
+    for (auto *array : {&out.area, &out.volume, &out.curvature, &out.curved_area, &out.bending}) clear(group, *array);
+    clear(group, out.vector_area, 3);
+  }
+  FaceQuarters &quarters = groups.quarters;
+  if (quarters.groups().empty()) return;
+  quarters.place(groups, x);
+  for (const FaceGroup &group : quarters.groups()) integrate_group(group, quarters.faces().data(), quarters.x(), model, out);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Membrane_NS::face_forces(FaceGroups &groups, const double (*x)[3], const FaceModel &model, const FaceTerms &terms,
+                              double (*f)[3], FaceEnergies &out)
+{
+  for (const FaceGroup &group : groups) {
+    force_group(group, nullptr, x, model, terms, f, out);
+    if (group.nwhole() == group.nblocks()) continue;
+    for (auto *array : {&out.bending, &out.gauss, &out.area, &out.leaflet_bend}) clear(group, *array);
+    clear(group, out.virial, 6);
+  }
+  FaceQuarters &quarters = groups.quarters;
+  if (!quarters.groups().empty()) {
+    quarters.place(groups, x);
+    for (const FaceGroup &group : quarters.groups())
+      force_group(group, quarters.faces().data(), quarters.x(), model, terms, quarters.f(), out);
+    quarters.pull(groups, f);
+  }
+  if (out.leaflet_bend.empty()) return;
+  for (const FaceGroup &group : groups)
+    for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) out.leaflet_bend[slot] /= out.area[slot];
 }

@@ -14,7 +14,7 @@
 #ifndef LMP_MEMBRANE_HELFRICH_H
 #define LMP_MEMBRANE_HELFRICH_H
 
-#include "membrane_face_groups.h"
+#include "membrane_face_quarters.h"
 
 #include <vector>
 
@@ -41,19 +41,19 @@ struct FaceIntegrals {
 /// Energies and virials of each face, by slot. Empty arrays are not computed.
 struct FaceEnergies {
   std::vector<double> bending, gauss, area;    ///< [slots]
-  std::vector<double> leaflet_bend;    ///< [slots] of leaflets: the mean of D^2 (k1^2 + k2^2), see LEAFLETS_EXACT
+  std::vector<double> leaflet_bend;    ///< [slots] of leaflets: the mean of D^2 (k1^2 + k2^2), see LEAFLETS_EXACT;
+                                       ///< comes with the area only
   std::vector<double> virial;    ///< [slots][6] xx yy zz xy xz yz of sum r f, r from the origin if
                                  ///< the scene has a volume term, else from the first corner
 };
 
 /// First pass, needed when a term depends on a total of the membrane. x is [points][3].
-void face_integrals(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                    FaceIntegrals &out);
+void face_integrals(FaceGroups &groups, const double (*x)[3], const FaceModel &model, FaceIntegrals &out);
 
 /** Second pass: adds minus the gradient of the energy to f, [points][3]. The gradient of the
     volume is taken at fixed origin. */
-void face_forces(const FaceGroup &group, const double (*x)[3], const FaceModel &model,
-                 const FaceTerms &terms, double (*f)[3], FaceEnergies &out);
+void face_forces(FaceGroups &groups, const double (*x)[3], const FaceModel &model, const FaceTerms &terms,
+                 double (*f)[3], FaceEnergies &out);
 
 }    // namespace Membrane_NS
 

@@ -48,13 +48,57 @@ __attribute__((always_inline)) inline void find_normal(const LaneJet &at, LaneGr
   by.inverse = 1.0 / J;
 }
 
+/// LANES slots in a row, or where each of these is to be looked for.
+struct Slots {
+  int first;
+  const int *of = nullptr;
+
+  Lane operator()(const std::vector<double> &array) const
+  {
+    if (!of) return load(array, first);
+    Lane lane;
+    for (int l = 0; l < LANES; ++l) lane[l] = array[of[first + l]];
+    return lane;
+  }
+  Lane3 place(const std::vector<double> &array) const
+  {
+    if (!of) return load3(array, first);
+    Lane3 lane;
+    for (int l = 0; l < LANES; ++l) {
+      const double *x = &array[3 * (size_t) of[first + l]];
+      lane.x[l] = x[0];
+      lane.y[l] = x[1];
+      lane.z[l] = x[2];
+    }
+    return lane;
+  }
+};
+
 /// Of the faces of a block.
 struct BlockIntegrals {
   Lane area{}, volume{}, curvature{}, curved_area{}, bending{};
   Lane3 vector_area{};
+
+  void operator+=(const BlockIntegrals &more)
+  {
+    area += more.area;
+    volume += more.volume;
+    curvature += more.curvature;
+    curved_area += more.curved_area;
+    bending += more.bending;
+    vector_area += more.vector_area;
+  }
 };
 struct BlockEnergies {
   Lane bending{}, gauss{}, area{}, bend{};    // bend: of leaflets
+
+  void operator+=(const BlockEnergies &more)
+  {
+    bending += more.bending;
+    gauss += more.gauss;
+    area += more.area;
+    bend += more.bend;
+  }
 };
 
 /// Integrals of a block, and what a point adds to them.
@@ -62,12 +106,12 @@ template <bool VOLUME, bool CURVATURE> class PointIntegrals : public BlockIntegr
  public:
   static constexpr bool HAS_PLACE = VOLUME, HAS_CURVATURE = CURVATURE;    // else r and second derivatives are not looked at
 
-  PointIntegrals(const FaceModel &model, int slot)
+  PointIntegrals(const FaceModel &model, const Slots &slots)
   {
-    if (VOLUME) origin = load3(model.origin, slot);
+    if (VOLUME) origin = slots.place(model.origin);
     if (!CURVATURE) return;
-    kc = load(model.kc, slot);
-    c0 = load(model.c0, slot);
+    kc = slots(model.kc);
+    c0 = slots(model.c0);
   }
 
   __attribute__((always_inline)) void add(const LaneJet &at, double weight, double area_weight)
@@ -102,9 +146,8 @@ template <bool VOLUME, bool CURVATURE> class PointIntegrals : public BlockIntegr
 class Leaflets {
  public:
   Leaflets() = default;
-  Leaflets(const FaceModel &model, int slot) :
-      quarter(0.25 * load(model.kc, slot)), D(load(model.leaflet, slot)), outer(load(model.outer, slot)),
-      inner(load(model.inner, slot))
+  Leaflets(const FaceModel &model, const Slots &slots) :
+      quarter(0.25 * slots(model.kc)), D(slots(model.leaflet)), outer(slots(model.outer)), inner(slots(model.inner))
   {
   }
 
@@ -170,14 +213,14 @@ template <bool GAUSS, bool VOLUME, bool MOMENT, bool LEAFLETS> class PointEnergi
  public:
   static constexpr bool HAS_PLACE = VOLUME;    // else r is not looked at
 
-  PointEnergies(const FaceModel &model, int slot) :
-      kc(load(model.kc, slot)), c0(load(model.c0, slot)), tension(load(model.tension, slot))
+  PointEnergies(const FaceModel &model, const Slots &slots) :
+      kc(slots(model.kc)), c0(slots(model.c0)), tension(slots(model.tension))
   {
-    if (LEAFLETS) leaflets = Leaflets(model, slot);
-    if (GAUSS) kg = load(model.kg, slot);
-    if (VOLUME) pressure = load(model.pressure, slot);
-    if (MOMENT) moment = load(model.moment, slot);
-    if (VOLUME) origin = load3(model.origin, slot);
+    if (LEAFLETS) leaflets = Leaflets(model, slots);
+    if (GAUSS) kg = slots(model.kg);
+    if (VOLUME) pressure = slots(model.pressure);
+    if (MOMENT) moment = slots(model.moment);
+    if (VOLUME) origin = slots.place(model.origin);
   }
 
   __attribute__((always_inline)) void add(const LaneJet &at, double weight, double area_weight, LaneGradient &by)

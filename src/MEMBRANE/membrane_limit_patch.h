@@ -21,9 +21,6 @@
 
 namespace Membrane_NS {
 
-/// The largest number of control points of one face.
-constexpr int MOST_STENCIL = 3 * MOST_VALENCE - 6;
-
 /// x, y, z and 0: a register of the vector unit.
 using Lane4 = Lanes<4>;
 

@@ -18,7 +18,6 @@
 #include "membrane_mass_sampling.h"
 
 #include "membrane_cotangent.h"
-#include "membrane_random.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -59,6 +58,8 @@ SamplingMass::SamplingMass(const VertexMasses &vertices, const Settings &setting
   const Topology &topology = vertices.topology;
   all_.assign(topology.num_vertices(), Vector4{});
   along_.assign(topology.num_vertices(), 0.0);
+  noise_ = all_;
+  noise_along_ = along_;
   build_factors(topology, vertices.masses);
   build_totals(topology);
 }
@@ -225,23 +226,34 @@ void SamplingMass::build_totals(const Topology &topology)
 
 /* ---------------------------------------------------------------------- */
 
+// along normals, and what is left along the surface
+
+void SamplingMass::split(VertexField &x, std::vector<double> &along) const
+{
+  for (size_t v = 0; v < x.size(); ++v) {
+    Map<Vector3d> f(x[v].c);
+    along[v] = normals_[v].dot(f);
+    f -= along[v] * normals_[v];
+    x[v].c[3] = 0.0;
+  }
+}
+
+void SamplingMass::join(const std::vector<double> &along, VertexField &x) const
+{
+  for (size_t v = 0; v < x.size(); ++v) {
+    Map<Vector3d> f(x[v].c);
+    f += (along[v] - normals_[v].dot(f)) * normals_[v];
+  }
+}
+
 // x = (N B^-1 N^T + (1 - N N^T) T^-1 (1 - N N^T)) x
 
 void SamplingMass::solve_base(VertexField &x)
 {
-  const int n = static_cast<int>(x.size());
-  for (int v = 0; v < n; ++v) {
-    Map<Vector3d> f(x[v].c);
-    along_[v] = normals_[v].dot(f);
-    f -= along_[v] * normals_[v];
-    x[v].c[3] = 0.0;
-  }
+  split(x, along_);
   normal_factor_->solve(along_);
   tangent_factor_->solve(x);
-  for (int v = 0; v < n; ++v) {
-    Map<Vector3d> f(x[v].c);
-    f += (along_[v] - normals_[v].dot(f)) * normals_[v];
-  }
+  join(along_, x);
 }
 
 static VectorXd products(const MatrixXd &columns, const VertexField &x)
@@ -263,17 +275,38 @@ static void subtract(const MatrixXd &columns, const VectorXd &q, VertexField &x)
       for (int i = 0; i < 3; ++i) x[v].c[i] -= columns(3 * v + i, j) * q[j];
 }
 
-void SamplingMass::solve_all(VertexField &x)
+// what totals and translations add to the solution of the base, from momenta
+
+SamplingMass::Rest SamplingMass::rest_of(const VertexField &p) const
 {
-  std::vector<Vector3d> total(turning_.size(), Vector3d::Zero());
+  Rest rest;
+  rest.speed.assign(turning_.size(), Vector3d::Zero());
+  for (size_t t = 0; t < turning_.size(); ++t) {
+    for (int v : turning_[t].vertices) rest.speed[t] += Map<const Vector3d>(p[v].c);
+    rest.speed[t] *= turning_[t].mobility;
+  }
+  if (w_.size()) rest.totals = w_ * products(y_, p);
+  return rest;
+}
+
+// the same from the noise of the base
+
+SamplingMass::Rest SamplingMass::rest_of_noise(double root, const CounterRandom &random, const VertexField &noise) const
+{
+  Rest rest;
+  for (const Turning &turning : turning_) {
+    const auto normal = random.normals(labels_[turning.vertices[0]], 1);
+    rest.speed.push_back(root * std::sqrt(turning.mobility) * Vector3d(normal[0], normal[1], normal[2]));
+  }
+  if (c_.size()) rest.totals = c_ * products(u_, noise);
+  return rest;
+}
+
+void SamplingMass::add(const Rest &rest, VertexField &v) const
+{
+  if (rest.totals.size()) subtract(y_, rest.totals, v);
   for (size_t t = 0; t < turning_.size(); ++t)
-    for (int v : turning_[t].vertices) total[t] += Map<Vector3d>(x[v].c);
-  VectorXd q;
-  if (w_.size()) q = w_ * products(y_, x);
-  solve_base(x);
-  if (w_.size()) subtract(y_, q, x);
-  for (size_t t = 0; t < turning_.size(); ++t)
-    for (int v : turning_[t].vertices) Map<Vector3d>(x[v].c) += turning_[t].mobility * total[t];
+    for (int i : turning_[t].vertices) Map<Vector3d>(v[i].c) += rest.speed[t];
 }
 
 void SamplingMass::scatter(const VertexField &all, VertexField &x) const
@@ -284,37 +317,55 @@ void SamplingMass::scatter(const VertexField &all, VertexField &x) const
 void SamplingMass::solve(const VertexField &p, VertexField &v)
 {
   part_.gather(p, all_);
-  solve_all(all_);
+  const Rest rest = rest_of(all_);
+  solve_base(all_);
+  add(rest, all_);
   scatter(all_, v);
   passes_ = 1;
 }
 
 /* ---------------------------------------------------------------------- */
 
+void SamplingMass::draw(double root, const CounterRandom &random, VertexField &noise, std::vector<double> &along) const
+{
+  random.normals(labels_, noise);
+  for (size_t i = 0; i < noise.size(); ++i) {
+    quad(noise[i]) *= root;
+    along[i] = noise[i].c[3];
+    noise[i].c[3] = 0.0;
+  }
+}
+
 void SamplingMass::sample(double kT, uint64_t seed, uint64_t step, VertexField &v)
 {
-  const int n = static_cast<int>(all_.size());
   const CounterRandom random(seed, step);
   const double root = std::sqrt(kT);
-  random.normals(labels_, all_);
-  for (int i = 0; i < n; ++i) {
-    quad(all_[i]) *= root;
-    along_[i] = all_[i].c[3];
-    all_[i].c[3] = 0.0;
-  }
+  draw(root, random, all_, along_);
   normal_factor_->colour(along_);
   tangent_factor_->colour(all_);
-  for (int i = 0; i < n; ++i) {
-    Map<Vector3d> f(all_[i].c);
-    f += (along_[i] - normals_[i].dot(f)) * normals_[i];
-  }
-  if (c_.size()) subtract(y_, c_ * products(u_, all_), all_);
-  for (const Turning &turning : turning_) {
-    const auto normal = random.normals(labels_[turning.vertices[0]], 1);
-    for (int i : turning.vertices)
-      for (int k = 0; k < 3; ++k) all_[i].c[k] += root * std::sqrt(turning.mobility) * normal[k];
-  }
+  join(along_, all_);
+  add(rest_of_noise(root, random, all_), all_);
   scatter(all_, v);
+}
+
+// both at once: factors are read twice in place of three times
+
+void SamplingMass::solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step, VertexField &z)
+{
+  const CounterRandom random(seed, step);
+  part_.gather(p, all_);
+  const Rest rest = rest_of(all_);
+  split(all_, along_);
+  draw(1.0, random, noise_, noise_along_);
+  normal_factor_->solve_and_colour(along_, noise_along_);
+  tangent_factor_->solve_and_colour(all_, noise_);
+  join(along_, all_);
+  join(noise_along_, noise_);
+  add(rest, all_);
+  add(rest_of_noise(1.0, random, noise_), noise_);
+  scatter(all_, v);
+  scatter(noise_, z);
+  passes_ = 1;
 }
 
 /* ----------------------------------------------------------------------

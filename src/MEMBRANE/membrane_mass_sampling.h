@@ -17,6 +17,7 @@
 #include "membrane_cholesky.h"
 #include "membrane_mass.h"
 #include "membrane_mass_reference.h"
+#include "membrane_random.h"
 
 #include <Eigen/Dense>
 
@@ -43,6 +44,7 @@ class SamplingMass : public MassOperator {
   void multiply(const VertexField &v, VertexField &p) override;
   void solve(const VertexField &p, VertexField &v) override;
   void sample(double kT, uint64_t seed, uint64_t step, VertexField &v) override;
+  void solve_with_noise(const VertexField &p, VertexField &v, uint64_t seed, uint64_t step, VertexField &z) override;
   int lost_freedoms() const override { return static_cast<int>(3 * turning_.size()); }
   void add_gauge_forces(double kT, const VertexField &x, VertexField &f) override;
   double memory_usage() const override;
@@ -68,14 +70,24 @@ class SamplingMass : public MassOperator {
   std::vector<Turning> turning_;
   std::vector<int> turning_of_;          // by vertex, or -1
   std::vector<Eigen::Vector3d> arms_;    // by vertex, from the middle of its component
-  VertexField all_;    // by vertex of the topology
-  std::vector<double> along_;
+  VertexField all_, noise_;    // by vertex of the topology
+  std::vector<double> along_, noise_along_;
+
+  struct Rest {    // of velocities, besides those of the base
+    Eigen::VectorXd totals;
+    std::vector<Eigen::Vector3d> speed;    // of turning components
+  };
 
   void build_factors(const Topology &, const std::vector<double> &masses);
   void build_totals(const Topology &);
   void find_turning(const Topology &, const std::vector<double> &areas);
+  void split(VertexField &x, std::vector<double> &along) const;
+  void join(const std::vector<double> &along, VertexField &x) const;
   void solve_base(VertexField &x);
-  void solve_all(VertexField &x);
+  void draw(double root, const CounterRandom &, VertexField &noise, std::vector<double> &along) const;
+  Rest rest_of(const VertexField &p) const;
+  Rest rest_of_noise(double root, const CounterRandom &, const VertexField &noise) const;
+  void add(const Rest &, VertexField &v) const;
   void scatter(const VertexField &all, VertexField &x) const;
 };
 

@@ -242,6 +242,9 @@ enum class CornerPatch { FACE, PART, TIP };
 constexpr int MOST_FITTED = 8, MOST_FITTED_TIP = 12;    // valences
 constexpr int LEVELS_TO_FITTED_TIP = 2;
 
+// points of quarters are the same if their weights are
+constexpr double SAME_POINT = 1e-12;
+
 // how many points of a fitted rule it takes; 0: it has none. A quarter is narrower and needs fewer; around valence 8
 // curvature varies more than around less. Valence 3 is rare; with 12 and 16 points forces with leaflets missed their differences by 8e-7
 
@@ -291,6 +294,54 @@ static MatrixXd turned(const MatrixXd &matrix, int n, int k)
   return rows;
 }
 
+// a quarter has its extraordinary corner, if there is one, first
+
+static int quarter_valence(const Valences &valences, int child)
+{
+  return child == 3 ? 6 : valences[child];
+}
+
+static MatrixXd quarter_matrix(const LimitBasis &basis, const Valences &valences, int child)
+{
+  const int n = quarter_valence(valences, child);
+  return n == 6 ? basis.child_matrix(child) : turned(basis.child_matrix(child), n, child);
+}
+
+const PatchRule &PatchRules::quarter(int valence)
+{
+  return valence == 6 ? get({6, 6, 6}) : tip(valence);
+}
+
+FaceCut PatchRules::cut(const LimitBasis &basis, const Valences &valences)
+{
+  FaceCut cut;
+  std::vector<RowVectorXd> points;
+  for (int child = 0; child < 4; ++child) {
+    const int n = quarter_valence(valences, child);
+    const MatrixXd matrix = quarter_matrix(basis, valences, child);
+    FaceCut::Quarter quarter = {n, &this->quarter(n), {}};
+    for (int row = 0; row < matrix.rows(); ++row) {
+      const RowVectorXd point = matrix.row(row);
+      const auto same = std::find_if(points.begin(), points.end(), [&](const RowVectorXd &other) {
+        return (other - point).cwiseAbs().maxCoeff() < SAME_POINT;
+      });
+      quarter.points.push_back(static_cast<int>(same - points.begin()));
+      if (same == points.end()) points.push_back(point);
+    }
+    cut.quarters.push_back(std::move(quarter));
+  }
+  cut.start.push_back(0);
+  for (const RowVectorXd &point : points) {
+    for (int k = 0; k < point.size(); ++k) {
+      if (point[k] == 0.0) continue;
+      cut.from.push_back(k);
+      cut.weight.push_back(point[k]);
+    }
+    cut.start.push_back(static_cast<int>(cut.from.size()));
+  }
+  return cut;
+}
+
 PatchRule PatchRules::build(const Valences &valences)
 {
   const LimitBasis basis(valences);
@@ -308,15 +359,10 @@ PatchRule PatchRules::build(const Valences &valences)
     return rule;
   }
 
-  const PatchRule regular = regular_patch(triangle_);
-  for (int child = 0; child < 4; ++child) {
-    const MatrixXd matrix = basis.child_matrix(child);
-    const RowVectorXd mask = basis.corner_mask(child % 3);
-    if (child == 3 || valences[child] == 6)
-      append_child(rule, regular, matrix, mask);
-    else
-      append_child(rule, tip(valences[child]), turned(matrix, valences[child], child), mask);
-  }
+  for (int child = 0; child < 4; ++child)
+    append_child(rule, quarter(quarter_valence(valences, child)), quarter_matrix(basis, valences, child),
+                 basis.corner_mask(child % 3));
+  rule.cut = cut(basis, valences);
   return rule;
 }
 

@@ -41,6 +41,26 @@ struct TriangleRule {
 };
 TriangleRule triangle_rule(Quadrature quadrature);
 
+struct PatchRule;
+
+/** A face that is cut in four: the rules of its quarters, and their control points, each of which is the mean of a few
+    of the face. */
+struct FaceCut {
+  struct Quarter {
+    int valence;                ///< of its first corner; the others have 6
+    const PatchRule *rule;
+    std::vector<int> points;    ///< [rule->size]
+  };
+  std::vector<Quarter> quarters;    ///< four, or none if the face is not cut
+  // point i is the sum over j from start[i] to start[i + 1] of weight[j] times control point from[j] of the face
+  std::vector<int> start, from;
+  std::vector<double> weight;
+
+  bool empty() const { return quarters.empty(); }
+  /// Of control points of the quarters.
+  int size() const { return empty() ? 0 : static_cast<int>(start.size()) - 1; }
+};
+
 /** The quadrature of a face with given valences, as data: for each point its weights and the rows
     of LimitBasis::Row. Derivatives are with respect to parameters chosen for each point such that
     they stay of the order of an edge; an integral is sum_points weight f(r, r_u, ...) for any f
@@ -52,6 +72,7 @@ struct PatchRule {
   std::vector<double> weight, area_weight;    ///< [npoints]
   std::vector<double> rows;                   ///< [npoints][LimitBasis::ROWS][size]
   std::vector<ThreefoldPoint> threefold;      ///< the same points by threes, if that is how they are
+  FaceCut cut;                                ///< the same points by quarters, likewise
   const double *row(int point, int which) const
   {
     return rows.data() + (static_cast<size_t>(point) * LimitBasis::ROWS + which) * size;
@@ -86,6 +107,8 @@ class PatchRules {
   PatchRule build(const Valences &valences);
   const PatchRule &tip(int n);
   PatchRule graded(int n) const;
+  const PatchRule &quarter(int valence);
+  FaceCut cut(const LimitBasis &basis, const Valences &valences);
   PatchRule regular_children(const LimitBasis &basis, Quadrature quadrature) const;
 };
 

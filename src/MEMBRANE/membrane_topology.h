@@ -37,6 +37,8 @@ using Valences = std::array<int, 3>;
 
 /// What works in arrays of fixed size has room for this valence, and says so of larger ones.
 constexpr int MOST_VALENCE = 32;
+/// Likewise: the largest number of control points of one face.
+constexpr int MOST_STENCIL = 3 * MOST_VALENCE - 6;
 
 /// A contiguous run of ints owned by somebody else.
 struct IntSpan {

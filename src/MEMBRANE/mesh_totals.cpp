@@ -24,6 +24,7 @@
 
 using namespace LAMMPS_NS;
 using Membrane_NS::FaceGroup;
+using Membrane_NS::FaceGroups;
 using Membrane_NS::FaceIntegrals;
 using Membrane_NS::FaceModel;
 
@@ -100,7 +101,7 @@ void MeshTotals::place(const std::vector<FaceGroup> &groups, FaceModel &model)
 
 /* ---------------------------------------------------------------------- */
 
-void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
+void MeshTotals::measure(FaceGroups &groups, FaceModel &model,
                          FaceIntegrals &integrals, const Wanted &wanted)
 {
   if (seen != mesh.stamp()) place_centres();
@@ -112,7 +113,7 @@ void MeshTotals::measure(const std::vector<FaceGroup> &groups, FaceModel &model,
 
   const auto x = atom->nlocal ? reinterpret_cast<const double(*)[3]>(atom->x[0]) : nullptr;
   if (wanted.volume) place_origins(groups, model);
-  for (const FaceGroup &group : groups) face_integrals(group, x, model, integrals);
+  face_integrals(groups, x, model, integrals);
 
   constexpr int WIDTH = 9;
   const int n = parts.size();

@@ -47,7 +47,7 @@ class MeshTotals : protected Pointers {
   /** Collective. Areas, and what else is wanted, of the faces of these groups, of their components
       and of their membranes. A membrane's volume is that of its closed components. With volumes, the
       model's origins are at the centres afterwards, moved to the periodic image each face is in. */
-  void measure(const std::vector<Membrane_NS::FaceGroup> &, Membrane_NS::FaceModel &,
+  void measure(Membrane_NS::FaceGroups &, Membrane_NS::FaceModel &,
                Membrane_NS::FaceIntegrals &, const Wanted &);
   /** Collective. Only the centres of the components, and the model's origins there, without integrals. These
       stay good until reneighbouring moves atoms to other images. */

@@ -210,7 +210,7 @@ class Scene {
 
   const TriangleMesh &mesh() const { return mesh_; }
   const Topology &topology() const { return topology_; }
-  std::vector<FaceGroup> &groups() { return groups_; }
+  FaceGroups &groups() { return groups_; }
   FaceModel &model() { return model_; }
   FaceTerms &terms() { return terms_; }
   FaceEnergies &last_energies() { return energies_; }
@@ -242,9 +242,9 @@ class Scene {
 
     Totals sum;
     sum.virial.setZero();
+    face_integrals(groups_, positions, model_, integrals);
+    face_forces(groups_, positions, model_, terms_, forces, energies_);
     for (const FaceGroup &group : groups_) {
-      face_integrals(group, positions, model_, integrals);
-      face_forces(group, positions, model_, terms_, forces, energies_);
       for (int i = 0; i < group.nfaces; ++i) {
         const int slot = group.first_slot + i;
         sum.bending += energies_.bending[slot];
@@ -274,7 +274,7 @@ class Scene {
   TriangleMesh mesh_;
   Topology topology_;
   std::vector<Moduli> moduli_;
-  std::vector<FaceGroup> groups_;
+  FaceGroups groups_;
   FaceModel model_;
   FaceTerms terms_;
   FaceEnergies energies_;

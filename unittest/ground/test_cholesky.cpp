@@ -137,6 +137,41 @@ TEST(SparseCholesky, ColoursNoiseByTheInverse)
   }
 }
 
+TEST(SparseCholesky, SolvesAndColoursAtOnce)
+{
+  Random random(5);
+  for (const auto &a : matrices()) {
+    const int n = static_cast<int>(a.rows());
+    SparseCholesky factor(a);
+    VertexField x(n), z(n);
+    std::vector<double> s(n), t(n);
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        x[i].c[k] = random.symmetric();
+        z[i].c[k] = random.symmetric();
+      }
+      s[i] = random.symmetric();
+      t[i] = random.symmetric();
+    }
+    VertexField solved = x, coloured = z;
+    std::vector<double> solved_s = s, coloured_t = t;
+    factor.solve(solved);
+    factor.colour(coloured);
+    factor.solve(solved_s);
+    factor.colour(coloured_t);
+    factor.solve_and_colour(x, z);
+    factor.solve_and_colour(s, t);
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(x[i].c[k], solved[i].c[k], 1e-14);
+        EXPECT_NEAR(z[i].c[k], coloured[i].c[k], 1e-14);
+      }
+      EXPECT_NEAR(s[i], solved_s[i], 1e-14);
+      EXPECT_NEAR(t[i], coloured_t[i], 1e-14);
+    }
+  }
+}
+
 TEST(SparseCholesky, StoresFewZeros)
 {
   Random random(5);

@@ -453,9 +453,7 @@ TEST(Forces, AreAddedToWhatIsThere)
   const auto x = reinterpret_cast<const double(*)[3]>(scene.mesh().points.data());
   Points force(4, Vector3d(1.0, 2.0, 3.0));
   FaceEnergies nothing;    // empty arrays are not computed
-  for (const FaceGroup &group : scene.groups())
-    face_forces(group, x, scene.model(), scene.terms(),
-                reinterpret_cast<double(*)[3]>(force.data()), nothing);
+  face_forces(scene.groups(), x, scene.model(), scene.terms(), reinterpret_cast<double(*)[3]>(force.data()), nothing);
   for (int i = 0; i < 4; ++i)
     EXPECT_LT((force[i] - Vector3d(1.0, 2.0, 3.0) - once.force[i]).norm(), 1e-13);
   EXPECT_TRUE(nothing.bending.empty() && nothing.virial.empty());
@@ -762,34 +760,91 @@ TEST(Threefold, PointsAreFoundInTheRulesOfThreeAndSixPointsOfARegularFace)
   EXPECT_TRUE(threefold_points(lopsided.weight, lopsided.area_weight, lopsided.rows).empty());
 }
 
+// what a scene gives, compared with what rows times control points do: rules without points by threes and quarters
+static void expect_rows(Scene &scene, const std::string &where)
+{
+  const Totals found = scene.evaluate();
+  std::vector<PatchRule> plain;
+  plain.reserve(scene.groups().size());
+  std::vector<FaceGroup> groups = scene.groups();
+  for (FaceGroup &group : groups) {
+    plain.push_back(*group.rule);
+    plain.back().threefold.clear();
+    plain.back().cut = FaceCut();
+    group.rule = &plain.back();
+  }
+  const FaceEnergies faces = scene.last_energies();
+  scene.groups() = std::move(groups);
+  const Totals rows = scene.evaluate();
+  for (auto number : {&Totals::bending, &Totals::gauss, &Totals::tension, &Totals::pressure, &Totals::moment, &Totals::area,
+                      &Totals::volume, &Totals::curvature, &Totals::first_pass_bending})
+    EXPECT_LE(std::fabs(found.*number - rows.*number), 1e-13 * std::max(1.0, std::fabs(rows.*number))) << where;
+  EXPECT_LE((found.vector_area - rows.vector_area).norm(), 1e-13) << where;
+  EXPECT_LE((found.virial - rows.virial).norm(), 1e-11 * std::max(1.0, rows.virial.norm())) << where;
+  double worst = 0.0;
+  for (size_t i = 0; i < rows.force.size(); ++i) worst = std::max(worst, (found.force[i] - rows.force[i]).norm());
+  EXPECT_LE(worst, 1e-12 * std::max(1.0, largest(rows.force))) << where;
+  for (const FaceGroup &group : scene.groups())
+    for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot)
+      EXPECT_NEAR(faces.bending[slot], scene.last_energies().bending[slot], 1e-12 * rows.bending) << where;
+}
+
 TEST(Threefold, PointsGiveWhatRowsTimesControlPointsGive)
 {
   const TriangleMesh mesh = perturbed(icosphere(2, 1.0), 0.05, 77);
   for (Quadrature quadrature : {Quadrature::THREE, Quadrature::SIX})
     for (const auto &[term, moduli] : TERMS) {
       Scene scene(mesh, quadrature, {moduli});
-      const Totals threes = scene.evaluate();
-      std::vector<PatchRule> plain;
-      plain.reserve(scene.groups().size());
-      int found = 0;
-      for (FaceGroup &group : scene.groups()) {
-        found += !group.rule->threefold.empty();
-        plain.push_back(*group.rule);
-        plain.back().threefold.clear();
-        group.rule = &plain.back();
-      }
-      ASSERT_EQ(found, 1);
-      const Totals rows = scene.evaluate();
-      const std::string where = name(quadrature) + ", " + term;
-      for (auto number : {&Totals::bending, &Totals::gauss, &Totals::tension, &Totals::pressure, &Totals::moment, &Totals::area,
-                          &Totals::volume, &Totals::curvature, &Totals::first_pass_bending})
-        EXPECT_LE(std::fabs(threes.*number - rows.*number), 1e-13 * std::max(1.0, std::fabs(rows.*number))) << where;
-      EXPECT_LE((threes.vector_area - rows.vector_area).norm(), 1e-13) << where;
-      EXPECT_LE((threes.virial - rows.virial).norm(), 1e-11 * std::max(1.0, rows.virial.norm())) << where;
-      double worst = 0.0;
-      for (size_t i = 0; i < rows.force.size(); ++i) worst = std::max(worst, (threes.force[i] - rows.force[i]).norm());
-      EXPECT_LE(worst, 1e-12 * std::max(1.0, largest(rows.force))) << where;
+      EXPECT_TRUE(scene.groups().quarters.groups().empty());
+      expect_rows(scene, name(quadrature) + ", " + term);
     }
+}
+
+// === Faces of rare kinds by quarters
+
+TEST(Quarters, GiveWhatRowsTimesControlPointsGive)
+{
+  const TriangleMesh mesh = perturbed(flipped(icosphere(2, 1.0), 60, 10, 3), 0.03, 78);
+  for (Quadrature quadrature : {Quadrature::THREE, Quadrature::SIX, Quadrature::TWELVE})
+    for (const auto &[term, moduli] : TERMS) {
+      Scene scene(mesh, quadrature, {moduli});
+      EXPECT_GT(scene.groups().quarters.groups().size(), 3u);
+      expect_rows(scene, name(quadrature) + ", " + term);
+    }
+}
+
+TEST(Quarters, TakeWhatIsLeftOfFullBlocks)
+{
+  const TriangleMesh mesh = flipped(icosphere(2, 1.0), 60, 10, 3);
+  Scene scene(mesh, Quadrature::SIX, {TERMS.begin()->second});
+  int left = 0, quarters = 0;
+  for (const FaceGroup &group : scene.groups())
+    if (!group.rule->cut.empty()) left += group.nfaces % LANES;
+  for (const FaceGroup &group : scene.groups().quarters.groups()) quarters += group.nfaces;
+  EXPECT_GT(left, 10);
+  EXPECT_EQ(quarters, 4 * left);
+}
+
+TEST(Quarters, OfAFaceHaveItsPoints)
+{
+  PatchRules rules(Quadrature::SIX);
+  for (const Valences &valences : {Valences{5, 6, 7}, Valences{8, 7, 6}, Valences{3, 12, 4}, Valences{9, 6, 6}}) {
+    const PatchRule &rule = rules.get(valences);
+    ASSERT_EQ(rule.cut.quarters.size(), 4u);
+    EXPECT_EQ(rule.cut.size(), valences[0] + valences[1] + valences[2]);
+    int points = 0;
+    for (const FaceCut::Quarter &quarter : rule.cut.quarters) {
+      ASSERT_EQ(static_cast<int>(quarter.points.size()), quarter.rule->size);
+      points += quarter.rule->npoints;
+    }
+    EXPECT_EQ(points, rule.npoints);
+    for (int i = 0; i < rule.cut.size(); ++i) {
+      double sum = 0.0;
+      for (int j = rule.cut.start[i]; j < rule.cut.start[i + 1]; ++j) sum += rule.cut.weight[j];
+      EXPECT_NEAR(sum, 1.0, 1e-14);
+    }
+  }
+  for (const Valences &valences : {Valences{6, 6, 6}, Valences{5, 6, 6}}) EXPECT_TRUE(rules.get(valences).cut.empty());
 }
 
 // === Groups

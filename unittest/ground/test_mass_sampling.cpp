@@ -192,6 +192,23 @@ TEST(SamplingMass, NoiseHasTheInverseAsCovariance)
     }
 }
 
+TEST(SamplingMass, SolvesWithTheNoiseOfASample)
+{
+  for (const TriangleMesh &mesh : some_meshes()) {
+    Sampled body(mesh, mesh.is_periodic() ? TotalsOf::NONE : TotalsOf::VOLUME_AND_LENGTH);
+    const VertexField p = rough(body.size());
+    VertexField v(body.size()), z(body.size()), solved(body.size()), sampled(body.size());
+    body.matrix->solve(p, solved);
+    body.matrix->sample(1.0, 7, 13, sampled);
+    body.matrix->solve_with_noise(p, v, 7, 13, z);
+    for (int i = 0; i < body.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(v[i].c[k], solved[i].c[k], 1e-12);
+        EXPECT_NEAR(z[i].c[k], sampled[i].c[k], 1e-12);
+      }
+  }
+}
+
 TEST(SamplingMass, MultiplyUndoesSolve)
 {
   std::vector<TriangleMesh> meshes = some_meshes();

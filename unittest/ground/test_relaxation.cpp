@@ -86,8 +86,8 @@ class Relaxation {
     energies = {};
     energies.bending.resize(model.kc.size());
     double area = 0.0, volume = 0.0, bending = 0.0;
+    face_integrals(scene_.groups(), positions, model, integrals);
     for (const FaceGroup &group : scene_.groups()) {
-      face_integrals(group, positions, model, integrals);
       for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) {
         area += integrals.area[slot];
         volume += integrals.volume[slot];
@@ -96,10 +96,9 @@ class Relaxation {
     std::fill(model.tension.begin(), model.tension.end(), STIFFNESS * (area / area_ - 1.0));
     std::fill(model.pressure.begin(), model.pressure.end(), STIFFNESS * (volume / volume_ - 1.0));
     Points f(x.size(), Vector3d::Zero());
-    for (const FaceGroup &group : scene_.groups()) {
-      face_forces(group, positions, model, scene_.terms(), reinterpret_cast<double(*)[3]>(f.data()), energies);
+    face_forces(scene_.groups(), positions, model, scene_.terms(), reinterpret_cast<double(*)[3]>(f.data()), energies);
+    for (const FaceGroup &group : scene_.groups())
       for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) bending += energies.bending[slot];
-    }
     force_.resize(x.size(), 3);
     for (size_t i = 0; i < x.size(); ++i) force_.row(i) = f[i];
     return bending + 0.5 * STIFFNESS * (area_ * std::pow(area / area_ - 1.0, 2) + volume_ * std::pow(volume / volume_ - 1.0, 2));
