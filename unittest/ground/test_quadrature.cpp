@@ -416,11 +416,13 @@ TEST(PatchRules, FittedPointsSeeTheEnergyOfSmoothSurfaces)
 TEST(PatchRules, MeshesOfRandomValencesTakeFewPoints)
 {
   const TriangleMesh mesh = test_mesh("thermal_1800");
-  Scene scene(mesh, Quadrature::SIX), careful(mesh, Quadrature::CAREFUL);
+  Scene scene(mesh, Quadrature::SIX);
   double points = 0.0;
   for (const FaceGroup &group : scene.groups()) points += group.rule->npoints * static_cast<double>(group.nfaces) / mesh.faces.size();
   EXPECT_LT(points, 24.0);
-  const Totals by_rule = scene.evaluate(), exact = careful.evaluate();
+  const Totals by_rule = scene.evaluate();
+  if (SANITIZED) return;    // 75 kinds of faces with thousands of points each take a minute
+  const Totals exact = Scene(mesh, Quadrature::CAREFUL).evaluate();
   EXPECT_LT(std::fabs(by_rule.bending / exact.bending - 1.0), 1e-3);
   double apart = 0.0, whole = 0.0;
   for (size_t v = 0; v < mesh.points.size(); ++v) {
