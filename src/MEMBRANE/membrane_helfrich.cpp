@@ -470,6 +470,8 @@ void Membrane_NS::face_integrals(FaceGroups &groups, const double (*x)[3], const
 void Membrane_NS::face_forces(FaceGroups &groups, const double (*x)[3], const FaceModel &model, const FaceTerms &terms,
                               double (*f)[3], FaceEnergies &out)
 {
+  const bool lacks_area = !out.leaflet_bend.empty() && out.area.empty();    // which means over faces need
+  if (lacks_area) out.area.resize(out.leaflet_bend.size());
   for (const FaceGroup &group : groups) {
     force_group(group, nullptr, x, model, terms, f, out);
     if (group.nwhole() == group.nblocks()) continue;
@@ -486,4 +488,5 @@ void Membrane_NS::face_forces(FaceGroups &groups, const double (*x)[3], const Fa
   if (out.leaflet_bend.empty()) return;
   for (const FaceGroup &group : groups)
     for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) out.leaflet_bend[slot] /= out.area[slot];
+  if (lacks_area) out.area.clear();
 }

@@ -41,8 +41,7 @@ struct FaceIntegrals {
 /// Energies and virials of each face, by slot. Empty arrays are not computed.
 struct FaceEnergies {
   std::vector<double> bending, gauss, area;    ///< [slots]
-  std::vector<double> leaflet_bend;    ///< [slots] of leaflets: the mean of D^2 (k1^2 + k2^2), see LEAFLETS_EXACT;
-                                       ///< comes with the area only
+  std::vector<double> leaflet_bend;    ///< [slots] of leaflets: the mean of D^2 (k1^2 + k2^2), see LEAFLETS_EXACT
   std::vector<double> virial;    ///< [slots][6] xx yy zz xy xz yz of sum r f, r from the origin if
                                  ///< the scene has a volume term, else from the first corner
 };

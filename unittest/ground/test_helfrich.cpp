@@ -813,6 +813,27 @@ TEST(Quarters, GiveWhatRowsTimesControlPointsGive)
     }
 }
 
+TEST(Quarters, MeanBendOfLeafletsNeedsNoOtherArray)
+{
+  Moduli moduli;
+  moduli.leaflet = 0.1;
+  Scene scene(flipped(icosphere(2, 1.0), 60, 10, 3), Quadrature::SIX, {moduli});
+  const auto x = reinterpret_cast<const double(*)[3]>(scene.mesh().points.data());
+  FaceEnergies with, without;
+  with.leaflet_bend.resize(count_slots(scene.groups()));
+  with.area = without.leaflet_bend = with.leaflet_bend;
+  for (FaceEnergies *energies : {&with, &without}) {
+    Points force(scene.mesh().points.size(), Vector3d::Zero());
+    face_forces(scene.groups(), x, scene.model(), scene.terms(), reinterpret_cast<double(*)[3]>(force.data()), *energies);
+  }
+  EXPECT_TRUE(without.area.empty());
+  for (const FaceGroup &group : scene.groups())
+    for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) {
+      EXPECT_EQ(without.leaflet_bend[slot], with.leaflet_bend[slot]);
+      EXPECT_GT(with.leaflet_bend[slot], 0.0);
+    }
+}
+
 TEST(Quarters, TakeWhatIsLeftOfFullBlocks)
 {
   const TriangleMesh mesh = flipped(icosphere(2, 1.0), 60, 10, 3);
