@@ -487,8 +487,6 @@ void HelfrichModel::archive_coefficients(RestartArchive &file)
 
 double HelfrichModel::memory_usage() const
 {
-  double bytes = rules->memory_usage() + (finer_rules ? finer_rules->memory_usage() : 0.0);
-  for (const FaceGroup &group : scene.groups)
-    bytes += sizeof(int) * (group.points.capacity() + group.face.capacity());
-  return bytes + sizeof(double) * 14.0 * scene.nslots();
+  const double rule_bytes = rules->memory_usage() + (finer_rules ? finer_rules->memory_usage() : 0.0);
+  return rule_bytes + scene.groups.memory_usage() + sizeof(double) * 14.0 * scene.nslots();
 }

@@ -105,3 +105,22 @@ void FaceQuarters::pull(const std::vector<FaceGroup> &groups, double (*f)[3]) co
     }
   }
 }
+
+// === Memory
+
+static double bytes_of(const std::vector<FaceGroup> &groups)
+{
+  double bytes = 0.0;
+  for (const FaceGroup &group : groups) bytes += sizeof(int) * (group.points.capacity() + group.face.capacity());
+  return bytes;
+}
+
+double FaceQuarters::memory_usage() const
+{
+  return bytes_of(groups_) + sizeof(int) * faces_.capacity() + sizeof(double) * (x_.capacity() + f_.capacity());
+}
+
+double FaceGroups::memory_usage() const
+{
+  return bytes_of(*this) + quarters.memory_usage();
+}

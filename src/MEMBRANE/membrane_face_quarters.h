@@ -44,6 +44,8 @@ class FaceQuarters {
   /// Adds forces on quarters to those on the control points of faces.
   void pull(const std::vector<FaceGroup> &groups, double (*f)[3]) const;
 
+  double memory_usage() const;
+
  private:
   std::vector<FaceGroup> groups_;
   std::vector<int> faces_;
@@ -56,6 +58,7 @@ struct FaceGroups : std::vector<FaceGroup> {
 
   FaceGroups() = default;
   FaceGroups(std::vector<FaceGroup> &&groups) : std::vector<FaceGroup>(std::move(groups)), quarters(*this) {}
+  double memory_usage() const;
 };
 
 }    // namespace Membrane_NS

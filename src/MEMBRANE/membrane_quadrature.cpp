@@ -234,30 +234,28 @@ static Quadrature cheaper_rule(Quadrature quadrature)
   }
 }
 
-// a face with one extraordinary corner; the quarter at such a corner of a face that has more of them; what is left of a
-// graded rule after some cuts
-
-enum class CornerPatch { FACE, PART, TIP };
-
-constexpr int MOST_FITTED = 8, MOST_FITTED_TIP = 12;    // valences
-constexpr int LEVELS_TO_FITTED_TIP = 2;
-
 // points of quarters are the same if their weights are
-constexpr double SAME_POINT = 1e-12;
+static constexpr double SAME_POINT = 1e-12;
 
-// how many points of a fitted rule it takes; 0: it has none. A quarter is narrower and needs fewer; around valence 8
-// curvature varies more than around less. Valence 3 is rare; with 12 and 16 points forces with leaflets missed their differences by 8e-7
+// a face with one extraordinary corner; the quarter at such a corner of other faces
+
+enum class CornerPatch { FACE, QUARTER };
+
+// How many points of a fitted rule it takes; 0: it has none. A quarter has a fourth of the energy, so it may err more, and
+// curvature varies the more the larger the valence. Valence 3 is rare; with 12 and 16 points forces with leaflets missed their
+// differences by 8e-7
 
 static int points_on(CornerPatch patch, int valence, Quadrature quadrature)
 {
-  const bool six = quadrature == Quadrature::SIX;
-  if (!six && quadrature != Quadrature::THREE) return 0;
-  if (valence == 3 || valence > MOST_FITTED_TIP) return 0;
-  if (valence > MOST_FITTED) return patch != CornerPatch::TIP ? 0 : valence == 11 ? 15 : 16;
-  if (patch == CornerPatch::TIP) return 0;
-  const bool whole = six && patch == CornerPatch::FACE;
-  if (valence == 8) return whole ? 18 : six ? 16 : 12;
-  return !whole ? 10 : valence == 7 ? 15 : 16;
+  struct Points {
+    int face_of_three, face_of_six, quarter;
+  };
+  static const std::map<int, Points> points = {{4, {10, 16, 7}}, {5, {10, 16, 7}}, {7, {10, 15, 8}}, {8, {12, 18, 10}},
+                                               {9, {0, 0, 20}},  {10, {0, 0, 20}}, {11, {0, 0, 22}}, {12, {0, 0, 20}}};
+  const auto found = points.find(valence);
+  if (found == points.end() || (quadrature != Quadrature::THREE && quadrature != Quadrature::SIX)) return 0;
+  if (patch == CornerPatch::QUARTER) return found->second.quarter;
+  return quadrature == Quadrature::THREE ? found->second.face_of_three : found->second.face_of_six;
 }
 
 PatchRules::PatchRules(Quadrature quadrature) :
@@ -370,7 +368,7 @@ const PatchRule &PatchRules::tip(int n)
 {
   auto found = tips_.find(n);
   if (found != tips_.end()) return found->second;
-  PatchRule rule = fitted_patch(n, points_on(CornerPatch::PART, n, quadrature_));
+  PatchRule rule = fitted_patch(n, points_on(CornerPatch::QUARTER, n, quadrature_));
   if (rule.npoints == 0) rule = graded(n);
   return tips_[n] = std::move(rule);
 }
@@ -389,14 +387,11 @@ PatchRule PatchRules::graded(int n) const
 
   PatchRule level = regular_children(basis, quadrature_), rule;
   const Quadrature cheaper = cheaper_rule(quadrature_);
-  PatchRule tip = fitted_patch(n, points_on(CornerPatch::TIP, n, quadrature_));
-  int levels = LEVELS_TO_FITTED_TIP;
-  if (tip.npoints == 0) {
-    const double tolerance = quadrature_ == Quadrature::CAREFUL ? 1.0e-11 : 1.0e-4;
-    levels = static_cast<int>(std::ceil(std::log(tolerance) / std::log(energy_decay(n))));
-    for (int q = 0; q < triangle_.size(); ++q)
-      append(tip, triangle_.weight[q], triangle_.weight[q], basis.evaluate(triangle_.u[q], triangle_.v[q]));
-  }
+  PatchRule tip;
+  for (int q = 0; q < triangle_.size(); ++q)
+    append(tip, triangle_.weight[q], triangle_.weight[q], basis.evaluate(triangle_.u[q], triangle_.v[q]));
+  const double tolerance = quadrature_ == Quadrature::CAREFUL ? 1.0e-11 : 1.0e-4;
+  const int levels = static_cast<int>(std::ceil(std::log(tolerance) / std::log(energy_decay(n))));
 
   for (int depth = 1; depth < levels; ++depth) {
     append(rule, level);

@@ -85,7 +85,7 @@ struct PatchRule {
     fitted to the corner, see membrane_quadrature_corners.h: on the whole face if it has one such corner, else the
     face is cut in four, and they go on the parts at its corners.
 
-    Other rules and corners are graded (up to valence 12 as far as a fitted tip) and self-similar: the face is cut in four, the
+    Other rules and corners are graded and self-similar: the face is cut in four, the
     part at the corner again, and so on, each regular part getting the triangle rule, or from the
     third cut on, which leaves parts an eighth as wide as the face, the next cheaper one (SIX and TWELVE).
     The last, the tip, is integrated too: a rule that leaves it out lets a minimiser hide energy there. The
@@ -94,6 +94,7 @@ struct PatchRule {
 class PatchRules {
  public:
   explicit PatchRules(Quadrature quadrature);
+  PatchRules(const PatchRules &) = delete;    // rules of faces point to those of their quarters
   const PatchRule &get(const Valences &valences);
   Quadrature quadrature() const { return quadrature_; }
   double memory_usage() const;
