@@ -28,8 +28,8 @@ using namespace Membrane_NS;
 
 namespace {
 
-// control points of a regular face, of faces with one corner of valence 5 or 7, and with two
-constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13, TWO_FIVES = 10, TWO_SEVENS = 14;
+// control points of a regular face, of faces with one corner of valence 5 or 7, with two, and of those with one of 9 or 10
+constexpr int REGULAR = 12, FIVE = 11, SEVEN = 13, TWO_FIVES = 10, TWO_SEVENS = 14, NINE = 15, TEN = 16;
 constexpr int THREEFOLD = -1;
 
 // === All rules: rows times control points
@@ -299,6 +299,8 @@ template <class Choose> auto with_size(const PatchRule &rule, const Choose &choo
     case SEVEN: return choose(std::integral_constant<int, SEVEN>());
     case TWO_FIVES: return choose(std::integral_constant<int, TWO_FIVES>());
     case TWO_SEVENS: return choose(std::integral_constant<int, TWO_SEVENS>());
+    case NINE: return choose(std::integral_constant<int, NINE>());
+    case TEN: return choose(std::integral_constant<int, TEN>());
     default: return choose(std::integral_constant<int, 0>());
   }
 }
