@@ -834,6 +834,29 @@ TEST(Quarters, MeanBendOfLeafletsNeedsNoOtherArray)
     }
 }
 
+// D^2 (k1^2 + k2^2) of a sphere, in the mean of all faces
+TEST(Leaflets, MeanBendOfASphere)
+{
+  const double radius = 2.0;
+  Moduli moduli;
+  moduli.leaflet = 0.1;
+  Scene scene(interpolate(icosphere(3, radius)), Quadrature::SIX, {moduli});
+  FaceEnergies energies;
+  energies.leaflet_bend.resize(count_slots(scene.groups()));
+  energies.area = energies.leaflet_bend;
+  Points force(scene.mesh().points.size(), Vector3d::Zero());
+  face_forces(scene.groups(), reinterpret_cast<const double(*)[3]>(scene.mesh().points.data()), scene.model(), scene.terms(),
+              reinterpret_cast<double(*)[3]>(force.data()), energies);
+  double bend = 0.0, area = 0.0;
+  for (const FaceGroup &group : scene.groups())
+    for (int slot = group.first_slot; slot < group.first_slot + group.nfaces; ++slot) {
+      bend += energies.area[slot] * energies.leaflet_bend[slot];
+      area += energies.area[slot];
+    }
+  const double exact = 2.0 * std::pow(moduli.leaflet / radius, 2);
+  EXPECT_NEAR(bend / area, exact, 0.03 * exact);
+}
+
 TEST(Quarters, TakeWhatIsLeftOfFullBlocks)
 {
   const TriangleMesh mesh = flipped(icosphere(2, 1.0), 60, 10, 3);
