@@ -82,8 +82,8 @@ struct PatchRule {
 /** Builds patch rules on demand and keeps them; references stay valid.
 
     Around extraordinary corners of the valences that meshes have in number THREE and SIX take few points that were
-    fitted to the corner, see membrane_quadrature_corners.h: on the whole face if it has one such corner, else the
-    face is cut in four, and they go on the parts at its corners.
+    fitted to the corner, see membrane_quadrature_corners.h: on the whole face if it has one such corner, of valence
+    8 at most, else the face is cut in four, and they go on the quarters at its corners.
 
     Other rules and corners are graded and self-similar: the face is cut in four, the
     part at the corner again, and so on, each regular part getting the triangle rule, or from the
