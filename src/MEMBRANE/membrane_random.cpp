@@ -113,11 +113,7 @@ void CounterRandom::normals(const std::vector<uint64_t> &labels, VertexField &z)
   for (int first = 0; first < n; first += MANY) {
     const int count = std::min(MANY, n - first);
     uint32_t c[4][MANY];
-    for (int l = 0; l < MANY; ++l) {
-      const auto start = counter(labels[first + std::min(l, count - 1)], 0);
-      for (int j = 0; j < 4; ++j) c[j][l] = start[j];
-    }
-    philox(c, key_);
+    words(&labels[first], count, c);
     for (int at = 0; at < count; at += LANES) {
       Words word[4];
       Quad normal[4];
@@ -126,6 +122,36 @@ void CounterRandom::normals(const std::vector<uint64_t> &labels, VertexField &z)
       box_muller(word, normal);
       for (int l = 0; l < std::min(LANES, count - at); ++l)
         z[first + at + l] = {{normal[0][l], normal[1][l], normal[2][l], normal[3][l]}};
+    }
+  }
+}
+
+// the cosine of the angle to z is uniform, and so is the angle around it
+
+void CounterRandom::unit_vectors(const int64_t *labels, int count, double (*n)[3]) const
+{
+  for (int first = 0; first < count; first += MANY) {
+    const int here = std::min(MANY, count - first);
+    uint32_t c[4][MANY];
+    words(labels + first, here, c);
+    for (int at = 0; at < here; at += LANES) {
+      Words height, around;
+      for (int l = 0; l < LANES; ++l) {
+        height[l] = c[0][at + l];
+        around[l] = c[1][at + l];
+      }
+      const Quad z = (to_double(height) + 0.5) * 0x1.0p-31 - 1.0, square = 1.0 - z * z;
+      Quad flat, x, y;
+      for (int l = 0; l < LANES; ++l) flat[l] = std::sqrt(square[l]);
+      cosine_and_sine(around, x, y);
+      x *= flat;
+      y *= flat;
+      for (int l = 0; l < std::min(LANES, here - at); ++l) {
+        double *vector = n[first + at + l];
+        vector[0] = x[l];
+        vector[1] = y[l];
+        vector[2] = z[l];
+      }
     }
   }
 }

@@ -53,6 +53,9 @@ class CounterRandom {
   /// The same for each of the labels, to 1e-14, and several times as fast.
   void normals(const std::vector<uint64_t> &labels, VertexField &z) const;
 
+  /// A vector of length 1, uniform on the sphere, for each label, from two numbers of 32 bits of its block 0: n [count][3].
+  void unit_vectors(const int64_t *labels, int count, double (*n)[3]) const;
+
   /// Two independent numbers uniform in (0, 1), of 53 bits. Steps count modulo 2^48.
   std::array<double, 2> uniforms(uint64_t label, uint32_t block) const
   {
@@ -87,6 +90,16 @@ class CounterRandom {
   std::array<uint32_t, 2> key_;
   uint64_t step_;
   static constexpr int ROUNDS = 10;
+
+  // of up to MANY labels, block 0; words of further ones are those of the last
+  template <class Label> void words(const Label *labels, int count, uint32_t (&word)[4][MANY]) const
+  {
+    for (int l = 0; l < MANY; ++l) {
+      const auto start = counter(static_cast<uint64_t>(labels[l < count ? l : count - 1]), 0);
+      for (int j = 0; j < 4; ++j) word[j][l] = start[j];
+    }
+    philox(word, key_);
+  }
 
   // a size that the compiler makes vector loops of
   static void philox(uint32_t (&c)[4][MANY], std::array<uint32_t, 2> k)

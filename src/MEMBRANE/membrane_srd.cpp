@@ -156,22 +156,26 @@ void CollisionRule::draw(const SRDParticles &p, uint64_t step) const
 void CollisionRule::prepare(int cells, const int64_t *numbers, uint64_t step, const double *moments,
                             double *actions) const
 {
-  const int wide = num_moments();
-  for (int c = 0; c < cells; ++c, moments += wide, actions += num_actions()) {
+  const CounterRandom random(settings_.seed ^ CELL_NUMBERS, step);
+  double axis[CounterRandom::MANY][3];
+  for (int c = 0; c < cells; ++c, moments += num_moments(), actions += num_actions()) {
+    const int k = c % CounterRandom::MANY;
+    if (settings_.method == Method::SRD && k == 0)
+      random.unit_vectors(numbers + c, std::min(cells - c, CounterRandom::MANY), axis);
     if (moments[COUNT] == 0.0) continue;
     if (settings_.method == Method::SRD)
-      prepare_rotation(numbers[c], step, moments, actions);
+      prepare_rotation(numbers[c], step, moments, axis[k], actions);
     else
       prepare_andersen(moments, actions);
   }
 }
 
 /* ----------------------------------------------------------------------
-   action: mean velocity, and the matrix that acts on velocities relative to it
+   action: mean velocity, and the matrix that acts on velocities relative to it, a rotation about the axis
 ------------------------------------------------------------------------- */
 
 void CollisionRule::prepare_rotation(int64_t number, uint64_t step, const double *moments,
-                                     double *action) const
+                                     const double (&n)[3], double *action) const
 {
   for (int k = 0; k < 3; ++k) action[k] = moments[MOMENTUM + k] / moments[MASS];
   double *r = action + 3;
@@ -181,10 +185,6 @@ void CollisionRule::prepare_rotation(int64_t number, uint64_t step, const double
     return;
   }
 
-  constexpr double TWO_PI = 6.283185307179586476925;
-  const auto u = CounterRandom(settings_.seed ^ CELL_NUMBERS, step).uniforms(number, 0);
-  const double z = 2.0 * u[0] - 1.0, around = TWO_PI * u[1], flat = std::sqrt(1.0 - z * z);
-  const double n[3] = {flat * std::cos(around), flat * std::sin(around), z};
   const double scale = settings_.thermostat ? thermal_scale(number, step, moments) : 1.0;
   const double c = scale * cos_angle_, s = scale * sin_angle_, e = scale - c;
   r[0] = e * n[0] * n[0] + c;

@@ -103,7 +103,7 @@ class CollisionRule {
 
   void draw(const SRDParticles &particles, uint64_t step) const;
   double thermal_scale(int64_t number, uint64_t step, const double *moments) const;
-  void prepare_rotation(int64_t number, uint64_t step, const double *moments, double *action) const;
+  void prepare_rotation(int64_t number, uint64_t step, const double *moments, const double (&axis)[3], double *action) const;
   void prepare_andersen(const double *moments, double *action) const;
 };
 

@@ -62,6 +62,13 @@ static constexpr double LONGEST = 0.5;
 // solvent faster than this, in root mean squares, needs more than one look
 static constexpr double FAST = 2.5;
 
+// of an atom that is anywhere in memory: its pointer, which is elsewhere, would have to come first
+
+static Eigen::Map<Vector3d> row(double **array, int i)
+{
+  return Vector3d::Map(array[0] + 3 * (size_t) i);
+}
+
 /* ---------------------------------------------------------------------- */
 
 SurfaceMeetings::SurfaceMeetings(LAMMPS *lmp, SurfaceMotion &motion,
@@ -113,7 +120,7 @@ void SurfaceMeetings::cut_space(const SRDFlight &flight)
   double square = 0.0;
   for (int i = solvent.first(); i < solvent.last(); ++i) {
     if (!solvent.has(i)) continue;
-    const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
+    const Vector3d x = row(atom->x, i), v = row(atom->v, i);
     const double way = flight.dt * v.norm();
     if (!x.allFinite() || !(way < MOST_BOXES * (hi - lo).maxCoeff()))
       error->one(FLERR,
@@ -206,7 +213,7 @@ void SurfaceMeetings::list_approaching(const SRDFlight &flight)
 
 bool SurfaceMeetings::find_and_note(int i, const SRDFlight &flight, CollisionEvents &events)
 {
-  const Vector3d x = Vector3d::Map(atom->x[i]), v = Vector3d::Map(atom->v[i]);
+  const Vector3d x = row(atom->x, i), v = row(atom->v, i);
   if (!grid.find(x, flight.dt * v.norm() + point_slack, found)) return false;
   note(i, found, flight, events);
   return true;
@@ -216,12 +223,12 @@ void SurfaceMeetings::note(int i, const std::vector<int> &triangles, const SRDFl
                            CollisionEvents &events)
 {
   if (triangles.empty()) return;
-  const MovingPoint path = {Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i])};
+  const MovingPoint path = {row(atom->x, i), row(atom->v, i)};
   near.push_back({i, path, false});
   if (!apart.empty()) apart[i] = 1;
   const double mass = flight.solvent.mass()[i];
   events.add_point(path, 1.0 / mass, atom->tag[i], flight.dt * path.velocity.norm() + point_slack);
-  if (forces_on_solvent) events.accelerate_point(force->ftm2v / mass * Vector3d::Map(atom->f[i]));
+  if (forces_on_solvent) events.accelerate_point(force->ftm2v / mass * row(atom->f, i));
   const Vector3d way = flight.dt * path.velocity;
   for (int t : triangles) {
     const auto &image = grid.images()[t];
@@ -275,12 +282,12 @@ void SurfaceMeetings::move(const SRDFlight &flight, const CollisionEvents &event
   for (size_t n = 0; n < near.size(); ++n) {
     if (!near[n].turned) continue;
     const int i = near[n].atom;
-    Vector3d::Map(atom->x[i]) = events.path(n).at(flight.dt);
-    Vector3d::Map(atom->v[i]) = events.path(n).velocity;
+    row(atom->x, i) = events.path(n).at(flight.dt);
+    row(atom->v, i) = events.path(n).velocity;
   }
   if (approaching.left() == 0.0) return;
   auto look_anew = [&](int i) {
-    approaching.add(grid, i, Vector3d::Map(atom->x[i]), Vector3d::Map(atom->v[i]));
+    approaching.add(grid, i, row(atom->x, i), row(atom->v, i));
   };
   for (const Near &n : near)
     if (n.turned) look_anew(n.atom);

@@ -156,6 +156,39 @@ TEST(CounterRandom, NormalsAreRightToTheLastBitsFromTheSmallestNumberToTheLarges
   }
 }
 
+TEST(CounterRandom, UnitVectorsAreUniformOnTheSphere)
+{
+  const CounterRandom random(4711, 3);
+  const int n = 100000;
+  std::vector<int64_t> labels(n);
+  for (int i = 0; i < n; ++i) labels[i] = i % 2 ? 3 * i : (int64_t(1) << 40) - i;
+  std::vector<std::array<double, 3>> vectors(n);
+  random.unit_vectors(labels.data(), n, reinterpret_cast<double(*)[3]>(vectors.data()));
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  double fourth = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector3d v(vectors[i].data());
+    ASSERT_NEAR(v.norm(), 1.0, 1e-15);
+    mean += v / n;
+    second += v * v.transpose() / n;
+    fourth += (std::pow(v[0], 4) + std::pow(v[1], 4) + std::pow(v[2], 4)) / n;
+    if (i > 200) continue;
+    double alone[1][3];
+    random.unit_vectors(&labels[i], 1, alone);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(alone[0][k], vectors[i][k]);
+    const auto word = random.words(labels[i], 0);
+    const double angle = 2.0 * M_PI * (word[1] + 0.5) * 0x1.0p-32;
+    EXPECT_NEAR(v[2], 2.0 * (word[0] + 0.5) * 0x1.0p-32 - 1.0, 1e-15);
+    EXPECT_NEAR(v[0] * std::sin(angle), v[1] * std::cos(angle), 2e-15);
+    EXPECT_GT(v[0] * std::cos(angle) + v[1] * std::sin(angle), 0.0);
+  }
+  const double error = 1.0 / std::sqrt(3.0 * n);    // of a mean component
+  EXPECT_LT(mean.norm(), 5.0 * error);
+  EXPECT_LT((second - Eigen::Matrix3d::Identity() / 3.0).cwiseAbs().maxCoeff(), 5.0 * error);
+  EXPECT_NEAR(fourth, 0.6, 5.0 * error);
+}
+
 TEST(MassOperator, KindsAreFoundByTheirNames)
 {
   for (MassKind kind : KINDS) {
