@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 using namespace Membrane_NS;
 
@@ -57,7 +58,15 @@ std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchR
   struct Member {
     int face, first;
   };
-  std::map<Valences, std::vector<Member>> members;
+  struct Kind {
+    Valences valences;
+    bool is_squeezed;
+    bool operator<(const Kind &other) const
+    {
+      return std::tie(valences, is_squeezed) < std::tie(other.valences, other.is_squeezed);
+    }
+  };
+  std::map<Kind, std::vector<Member>> members;
   for (int f : faces) {
     const Valences n = topology.valences(f);
     auto rank = [](const Valences &v) {
@@ -74,20 +83,20 @@ std::vector<FaceGroup> Membrane_NS::group_faces(const Topology &topology, PatchR
         first = k;
       }
     }
-    members[key].push_back({f, first});
+    members[{key, topology.is_squeezed(f)}].push_back({f, first});
   }
 
   std::vector<FaceGroup> groups;
   std::vector<int> stencil;
   int slot = 0;
-  for (const auto &[valences, list] : members) {
+  for (const auto &[kind, list] : members) {
     FaceGroup group;
-    for (int n : valences)
+    for (int n : kind.valences)
       if (n > MOST_VALENCE)
         throw MeshError("face " + std::to_string(list[0].face) + " has a corner of valence " +
                         std::to_string(n) + "; at most " + std::to_string(MOST_VALENCE) +
                         " edges may meet in a vertex: remesh there");
-    group.rule = &rules.get(valences);
+    group.rule = kind.is_squeezed ? &rules.squeezed() : &rules.get(kind.valences);
     group.first_slot = slot;
     group.nfaces = static_cast<int>(list.size());
     group.points.resize(static_cast<size_t>(group.nslots()) * group.rule->size);

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 using namespace Membrane_NS;
 
@@ -34,7 +35,7 @@ FaceQuarters::FaceQuarters(const std::vector<FaceGroup> &groups)
     const PatchRule *rule;
     std::vector<Member> members;
   };
-  std::map<int, Kind> kinds;    // by valence
+  std::map<std::pair<int, int>, Kind> kinds;    // by numbers of control points and of points of quadrature
   size_t num_points = 0;
   for (const FaceGroup &group : groups) {
     const FaceCut &cut = group.rule->cut;
@@ -42,7 +43,7 @@ FaceQuarters::FaceQuarters(const std::vector<FaceGroup> &groups)
     for (int i = group.nwhole() * LANES; i < group.nfaces; ++i) {
       const int first = static_cast<int>(num_points) + i % LANES;
       for (const FaceCut::Quarter &quarter : cut.quarters) {
-        Kind &kind = kinds[quarter.valence];
+        Kind &kind = kinds[{quarter.rule->size, quarter.rule->npoints}];
         kind.rule = quarter.rule;
         kind.members.push_back({group.first_slot + i, first, &quarter.points});
       }
@@ -50,7 +51,7 @@ FaceQuarters::FaceQuarters(const std::vector<FaceGroup> &groups)
     num_points += static_cast<size_t>(LANES) * cut.size();
   }
 
-  for (const auto &[valence, kind] : kinds) {
+  for (const auto &[numbers, kind] : kinds) {
     FaceGroup group;
     group.rule = kind.rule;
     group.first_slot = count_slots(groups_);

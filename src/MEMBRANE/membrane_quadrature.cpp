@@ -164,11 +164,19 @@ void append(PatchRule &rule, const PatchRule &more)
            Eigen::Map<const Weights>(more.row(q, 0), LimitBasis::ROWS, more.size));
 }
 
-PatchRule regular_patch(const TriangleRule &triangle)
+PatchRule regular_patch(Quadrature quadrature)
 {
+  const TriangleRule triangle = triangle_rule(quadrature);
   PatchRule rule;
   for (int q = 0; q < triangle.size(); ++q)
     append(rule, triangle.weight[q], triangle.weight[q], box_spline(triangle.u[q], triangle.v[q]));
+  return rule;
+}
+
+PatchRule regular_face(Quadrature quadrature)
+{
+  PatchRule rule = regular_patch(quadrature);
+  rule.threefold = threefold_points(rule.weight, rule.area_weight, rule.rows);
   return rule;
 }
 
@@ -220,15 +228,29 @@ PatchRule fitted_patch(int n, int npoints)
 
 }    // namespace
 
-// where parts of a face are so narrow that it errs less than the rule itself does elsewhere
+// where parts of a face are so small that it errs less than the rule itself does elsewhere
 
-static Quadrature cheaper_rule(Quadrature quadrature)
+static Quadrature coarser_rule(Quadrature quadrature)
 {
   switch (quadrature) {
     case Quadrature::SIX:
       return Quadrature::THREE;
     case Quadrature::TWELVE:
       return Quadrature::SIX;
+    default:
+      return quadrature;
+  }
+}
+
+// where faces are so narrow that the rule errs more than elsewhere
+
+static Quadrature finer_rule(Quadrature quadrature)
+{
+  switch (quadrature) {
+    case Quadrature::THREE:
+      return Quadrature::SIX;
+    case Quadrature::SIX:
+      return Quadrature::TWELVE;
     default:
       return quadrature;
   }
@@ -266,12 +288,15 @@ PatchRules::PatchRules(Quadrature quadrature) :
 const PatchRule &PatchRules::get(const Valences &valences)
 {
   auto found = rules_.find(valences);
-  if (found == rules_.end()) {
-    found = rules_.emplace(valences, build(valences)).first;
-    PatchRule &rule = found->second;
-    if (LimitBasis(valences).is_regular()) rule.threefold = threefold_points(rule.weight, rule.area_weight, rule.rows);
-  }
+  if (found == rules_.end()) found = rules_.emplace(valences, build(valences)).first;
   return found->second;
+}
+
+const PatchRule &PatchRules::squeezed()
+{
+  if (finer_rule(quadrature_) == quadrature_) return get({6, 6, 6});
+  if (squeezed_.npoints == 0) squeezed_ = regular_face(finer_rule(quadrature_));
+  return squeezed_;
 }
 
 /* ----------------------------------------------------------------------
@@ -305,9 +330,11 @@ static MatrixXd quarter_matrix(const LimitBasis &basis, const Valences &valences
   return n == 6 ? basis.child_matrix(child) : turned(basis.child_matrix(child), n, child);
 }
 
-const PatchRule &PatchRules::quarter(int valence)
+const PatchRule &PatchRules::quarter(const Valences &valences, int child)
 {
-  return valence == 6 ? get({6, 6, 6}) : tip(valence);
+  const int n = quarter_valence(valences, child);
+  if (n != 6) return tip(n);
+  return *std::max_element(valences.begin(), valences.end()) >= SQUEEZING_VALENCE ? squeezed() : get({6, 6, 6});
 }
 
 FaceCut PatchRules::cut(const LimitBasis &basis, const Valences &valences)
@@ -315,9 +342,8 @@ FaceCut PatchRules::cut(const LimitBasis &basis, const Valences &valences)
   FaceCut cut;
   std::vector<RowVectorXd> points;
   for (int child = 0; child < 4; ++child) {
-    const int n = quarter_valence(valences, child);
     const MatrixXd matrix = quarter_matrix(basis, valences, child);
-    FaceCut::Quarter quarter = {n, &this->quarter(n), {}};
+    FaceCut::Quarter quarter = {&this->quarter(valences, child), {}};
     for (int row = 0; row < matrix.rows(); ++row) {
       const RowVectorXd point = matrix.row(row);
       const auto same = std::find_if(points.begin(), points.end(), [&](const RowVectorXd &other) {
@@ -343,7 +369,7 @@ FaceCut PatchRules::cut(const LimitBasis &basis, const Valences &valences)
 PatchRule PatchRules::build(const Valences &valences)
 {
   const LimitBasis basis(valences);
-  if (basis.is_regular()) return regular_patch(triangle_);
+  if (basis.is_regular()) return regular_face(quadrature_);
 
   PatchRule rule;
   int corners = 0, k = 0;    // k: the last of them
@@ -358,8 +384,7 @@ PatchRule PatchRules::build(const Valences &valences)
   }
 
   for (int child = 0; child < 4; ++child)
-    append_child(rule, quarter(quarter_valence(valences, child)), quarter_matrix(basis, valences, child),
-                 basis.corner_mask(child % 3));
+    append_child(rule, quarter(valences, child), quarter_matrix(basis, valences, child), basis.corner_mask(child % 3));
   rule.cut = cut(basis, valences);
   return rule;
 }
@@ -385,8 +410,8 @@ PatchRule PatchRules::graded(int n) const
   const RowVectorXd mask = basis.corner_mask(0);
   const double shrink = subdominant_eigenvalue(n);
 
-  PatchRule level = regular_children(basis, quadrature_), rule;
-  const Quadrature cheaper = cheaper_rule(quadrature_);
+  const Quadrature quadrature = n >= SQUEEZING_VALENCE ? finer_rule(quadrature_) : quadrature_;
+  PatchRule level = regular_children(basis, quadrature), rule;
   PatchRule tip;
   for (int q = 0; q < triangle_.size(); ++q)
     append(tip, triangle_.weight[q], triangle_.weight[q], basis.evaluate(triangle_.u[q], triangle_.v[q]));
@@ -395,7 +420,7 @@ PatchRule PatchRules::graded(int n) const
 
   for (int depth = 1; depth < levels; ++depth) {
     append(rule, level);
-    if (depth == 1) level = regular_children(basis, cheaper);
+    if (depth == 1) level = regular_children(basis, coarser_rule(quadrature));
     for (PatchRule *part : {&level, &tip}) {
       PatchRule next;
       append_child(next, *part, to_next, mask);
@@ -411,7 +436,7 @@ PatchRule PatchRules::graded(int n) const
 
 PatchRule PatchRules::regular_children(const LimitBasis &basis, Quadrature quadrature) const
 {
-  const PatchRule regular = regular_patch(triangle_rule(quadrature));
+  const PatchRule regular = regular_patch(quadrature);
   PatchRule rule;
   for (int child = 1; child < 4; ++child)
     append_child(rule, regular, basis.child_matrix(child), basis.corner_mask(0));
@@ -423,5 +448,6 @@ double PatchRules::memory_usage() const
   double bytes = 0.0;
   for (const auto &entry : rules_) bytes += sizeof(double) * entry.second.rows.size();
   for (const auto &entry : tips_) bytes += sizeof(double) * entry.second.rows.size();
+  bytes += sizeof(double) * squeezed_.rows.size();
   return bytes;
 }

@@ -47,7 +47,6 @@ struct PatchRule;
     of the face. */
 struct FaceCut {
   struct Quarter {
-    int valence;                ///< of its first corner; the others have 6
     const PatchRule *rule;
     std::vector<int> points;    ///< [rule->size]
   };
@@ -87,7 +86,9 @@ struct PatchRule {
 
     Other rules and corners are graded and self-similar: the face is cut in four, the
     part at the corner again, and so on, each regular part getting the triangle rule, or from the
-    third cut on, which leaves parts an eighth as wide as the face, the next cheaper one (SIX and TWELVE).
+    third cut on, which leaves parts an eighth as wide as the face, the next coarser one (SIX and TWELVE).
+    From valence 11 on, where faces are narrow, THREE and SIX take the next finer one in these places, as they do on regular
+    faces and quarters there.
     The last, the tip, is integrated too: a rule that leaves it out lets a minimiser hide energy there. The
     number of levels follows from how fast the energy of a level decays at that valence, so that
     the tip holds 1e-4 of the patch's energy (CAREFUL: 1e-11). */
@@ -96,6 +97,8 @@ class PatchRules {
   explicit PatchRules(Quadrature quadrature);
   PatchRules(const PatchRules &) = delete;    // rules of faces point to those of their quarters
   const PatchRule &get(const Valences &valences);
+  /// Of regular faces and quarters near a vertex of large valence, see Topology::is_squeezed().
+  const PatchRule &squeezed();
   Quadrature quadrature() const { return quadrature_; }
   double memory_usage() const;
 
@@ -104,11 +107,12 @@ class PatchRules {
   TriangleRule triangle_;
   std::map<Valences, PatchRule> rules_;
   std::map<int, PatchRule> tips_;    // by valence: the patch (n, 6, 6)
+  PatchRule squeezed_;
 
   PatchRule build(const Valences &valences);
   const PatchRule &tip(int n);
   PatchRule graded(int n) const;
-  const PatchRule &quarter(int valence);
+  const PatchRule &quarter(const Valences &valences, int child);
   FaceCut cut(const LimitBasis &basis, const Valences &valences);
   PatchRule regular_children(const LimitBasis &basis, Quadrature quadrature) const;
 };

@@ -56,6 +56,7 @@ Topology::Topology(int num_vertices, std::vector<Face> faces, const Labels &labe
   match_edges(num_vertices, labels);
   walk_fans(num_vertices, labels);
   find_components();
+  find_squeezed();
 }
 
 /* ----------------------------------------------------------------------
@@ -207,6 +208,35 @@ bool Topology::is_regular(int f) const
 }
 
 /* ----------------------------------------------------------------------
+   how many edges further the nearest vertex of large valence squeezes faces, and one more
+------------------------------------------------------------------------- */
+
+void Topology::find_squeezed()
+{
+  std::vector<int> reached;
+  for (int v = 0; v < num_vertices(); ++v)
+    if (valence(v) >= SQUEEZING_VALENCE) reached.push_back(v);
+  if (reached.empty()) return;
+  squeezes_.assign(num_vertices(), 0);
+  for (int v : reached) squeezes_[v] = valence(v) - SQUEEZING_VALENCE + 2;
+  for (size_t i = 0; i < reached.size(); ++i) {
+    const int further = squeezes_[reached[i]] - 1;
+    for (int w : ring(reached[i]))
+      if (further > squeezes_[w]) {
+        squeezes_[w] = further;
+        reached.push_back(w);
+      }
+  }
+}
+
+bool Topology::is_squeezed(int f) const
+{
+  if (squeezes_.empty() || !is_regular(f)) return false;
+  const Face &face = faces_[f];
+  return std::any_of(face.begin(), face.end(), [this](int v) { return squeezes_[v] > 0; });
+}
+
+/* ----------------------------------------------------------------------
    stencil order: see the header; membrane_limit_basis.cpp lays out its patches alike
 ------------------------------------------------------------------------- */
 
@@ -230,5 +260,5 @@ double Topology::memory_usage() const
 {
   auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof(v[0])); };
   return bytes(faces_) + bytes(neighbors_) + bytes(ring_start_) + bytes(ring_) +
-      bytes(ring_faces_) + bytes(component_);
+      bytes(ring_faces_) + bytes(component_) + bytes(squeezes_);
 }

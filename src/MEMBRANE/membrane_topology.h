@@ -40,6 +40,10 @@ constexpr int MOST_VALENCE = 32;
 /// Likewise: the largest number of control points of one face.
 constexpr int MOST_STENCIL = 3 * MOST_VALENCE - 6;
 
+/// From this valence on faces around a vertex are so narrow that they take finer quadrature; around fewer a minimiser hides less
+/// than 1e-5 of a sphere's energy from the default rule, see ground_relaxation.
+constexpr int SQUEEZING_VALENCE = 11;
+
 /// A contiguous run of ints owned by somebody else.
 struct IntSpan {
   const int *first, *last;
@@ -86,6 +90,9 @@ class Topology {
   Valences valences(int f) const;
   /// All three corners have valence 6.
   bool is_regular(int f) const;
+  /** The face is regular, but has a corner no more than n - 10 edges from a vertex of valence n > 10. On a smooth surface all faces
+      around such a vertex are about n/6 times as long as wide, until vertices of small valence make up for it. */
+  bool is_squeezed(int f) const;
 
   // === Vertices
 
@@ -124,6 +131,7 @@ class Topology {
   std::vector<std::array<int, 3>> neighbors_;
   std::vector<int> ring_start_{0}, ring_, ring_faces_;
   std::vector<int> component_, component_faces_, component_vertices_;
+  std::vector<int> squeezes_;    // by vertex: of faces there if positive; empty if there are none
 
   IntSpan span(const std::vector<int> &data, int v) const
   {
@@ -132,6 +140,7 @@ class Topology {
   void match_edges(int num_vertices, const Labels &labels);
   void walk_fans(int num_vertices, const Labels &labels);
   void find_components();
+  void find_squeezed();
 };
 
 /* ---------------------------------------------------------------------- */

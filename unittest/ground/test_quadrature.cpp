@@ -307,22 +307,29 @@ TEST(PatchRules, MorePointsAreMoreAccurate)
 TEST(PatchRules, CountOfPointsFollowsFromTheValence)
 {
   // parts of a graded face with one extraordinary corner: 3, then 3 a level, then the tip; from the third cut on
-  // the 3 take the next cheaper rule
+  // the 3 take the next coarser rule. Around large valences they take the next finer one
   const std::map<int, int> parts = {{3, 22}, {5, 19}, {8, 37}, {16, 151}};
-  constexpr int WIDE = 3 + 3 + 1;
-  const std::map<Quadrature, Quadrature> narrow = {{Quadrature::ONE, Quadrature::ONE},
-                                                   {Quadrature::THREE, Quadrature::THREE},
-                                                   {Quadrature::SIX, Quadrature::THREE},
-                                                   {Quadrature::TWELVE, Quadrature::SIX}};
+  constexpr int WIDE = 3 + 3;
+  struct Rules {
+    Quadrature own, wide, small;
+  };
+  const Rules graded[] = {{Quadrature::ONE, Quadrature::ONE, Quadrature::ONE},
+                          {Quadrature::THREE, Quadrature::THREE, Quadrature::THREE},
+                          {Quadrature::SIX, Quadrature::SIX, Quadrature::THREE},
+                          {Quadrature::TWELVE, Quadrature::TWELVE, Quadrature::SIX}};
+  const Rules narrow[] = {{Quadrature::ONE, Quadrature::ONE, Quadrature::ONE},
+                          {Quadrature::THREE, Quadrature::SIX, Quadrature::THREE},
+                          {Quadrature::SIX, Quadrature::TWELVE, Quadrature::SIX},
+                          {Quadrature::TWELVE, Quadrature::TWELVE, Quadrature::SIX}};
   for (const auto &[n, count] : parts)
-    for (const auto &[wide_rule, narrow_rule] : narrow) {
-      const bool fitted = n != 3 && n <= 12 && (wide_rule == Quadrature::THREE || wide_rule == Quadrature::SIX);
+    for (const Rules &r : n == 16 ? narrow : graded) {
+      const bool fitted = n != 3 && n <= 12 && (r.own == Quadrature::THREE || r.own == Quadrature::SIX);
       if (fitted) continue;
-      EXPECT_EQ(shared_rules(wide_rule).get({n, 6, 6}).npoints,
-                WIDE * triangle_rule(wide_rule).size() +
-                    (count - WIDE) * triangle_rule(narrow_rule).size())
+      EXPECT_EQ(shared_rules(r.own).get({n, 6, 6}).npoints,
+                WIDE * triangle_rule(r.wide).size() + (count - WIDE - 1) * triangle_rule(r.small).size() + triangle_rule(r.own).size())
           << "valence " << n;
     }
+  for (const Rules &r : narrow) EXPECT_EQ(shared_rules(r.own).squeezed().npoints, triangle_rule(r.wide).size());
 
   const PatchRules fresh(Quadrature::SIX);
   EXPECT_EQ(fresh.quadrature(), Quadrature::SIX);
@@ -345,7 +352,7 @@ TEST(PatchRules, FittedPointsAreFew)
   }
   for (int n = 9; n <= 12; ++n)
     for (auto [rules, regular] : {std::pair(&three, 3), std::pair(&six, 6)})
-      EXPECT_EQ(rules->get({n, 6, 6}).npoints, 3 * regular + (n == 11 ? 22 : 20)) << n;
+      EXPECT_EQ(rules->get({n, 6, 6}).npoints, 3 * (n > 10 ? 2 : 1) * regular + (n == 11 ? 22 : 20)) << n;
 }
 
 TEST(PatchRules, AreBuiltOnceAndStayWhereTheyAre)

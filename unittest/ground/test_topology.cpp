@@ -11,6 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
+#include "membrane_mesh_shapes.h"
 #include "membrane_topology.h"
 
 #include "gmock/gmock.h"
@@ -145,6 +146,35 @@ TEST(Topology, CornerOfAVertexNotInTheFaceIsMinusOne)
 {
   EXPECT_EQ(corner_of({4, 7, 9}, 9), 2);
   EXPECT_EQ(corner_of({4, 7, 9}, 5), -1);
+}
+
+// around a vertex of valence n from 11 on, up to n - 10 edges away, by the number of edges between
+TEST(Topology, VerticesOfLargeValenceSqueezeRegularFacesAroundThem)
+{
+  for (int n : {10, 11, 13}) {
+    TriangleMesh shape;
+    shape.points.resize(n + 2);
+    shape.faces = bipyramid(n);
+    for (int level = 0; level < 3; ++level) shape = loop_refine(shape);
+    const Topology mesh(static_cast<int>(shape.points.size()), shape.faces);
+    std::vector<int> edges(mesh.num_vertices(), mesh.num_vertices());
+    edges[n] = edges[n + 1] = 0;
+    for (int pass = 0; pass < 8; ++pass)
+      for (int v = 0; v < mesh.num_vertices(); ++v)
+        for (int w : mesh.ring(v)) edges[v] = std::min(edges[v], edges[w] + 1);
+    int squeezed = 0, others = 0;
+    for (int f = 0; f < mesh.num_faces(); ++f) {
+      const Face &face = mesh.face(f);
+      const int away = std::min({edges[face[0]], edges[face[1]], edges[face[2]]});
+      const bool is_near = n > 10 && away <= n - 10;
+      EXPECT_EQ(mesh.is_squeezed(f), mesh.is_regular(f) && is_near);
+      ++(mesh.is_squeezed(f) ? squeezed : others);
+    }
+    EXPECT_EQ(squeezed > 0, n > 10);
+    EXPECT_GT(others, 0);
+  }
+  const Topology regular(30, regular_torus(6, 5));
+  EXPECT_FALSE(regular.is_squeezed(0));
 }
 
 // === Components
