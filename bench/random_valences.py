@@ -4,8 +4,8 @@
   bench/random_valences.py LEVEL FILE [--six 0.57] [--seed 1]
 
 An icosphere of 10*4^LEVEL + 2 points of which random edges are flipped, until a share SIX of its points is left with
-valence 6, and none has fewer than 4 or more than 11; then points move to the middle of their neighbours and on to the sphere, a few times, and
-by a twentieth of an edge in a random direction. Writes an OFF file."""
+valence 6 (from 0.2 on), and none has fewer than 4 or more than 11; then points move to the middle of their neighbours
+and on to the sphere, a few times, and each coordinate by a random number of a twentieth of an edge. Writes an OFF file."""
 
 import argparse
 import math
@@ -18,6 +18,7 @@ from membrane_scenes import write_off    # noqa: E402
 
 LEAST, MOST = 4, 11    # valences
 ROUNDS, NOISE = 10, 0.05
+TRIES = 100    # an edge
 
 
 def unit(p):
@@ -66,12 +67,12 @@ def flip_edges(num_points, faces, six, random):
     for a, _ in beyond:
         valence[a] += 1
     sixes = valence.count(6)
-    edges = list(beyond)
-    while sixes > six * num_points:
+    edges = [(a, b) for a, b in beyond if a < b]
+    for _ in range(TRIES * len(edges)):
+        if sixes <= six * num_points:
+            break
         i = random.randrange(len(edges))
         a, b = edges[i]
-        if (a, b) not in beyond:    # flipped away
-            continue
         c, d = beyond[a, b], beyond[b, a]
         if (c, d) in beyond or min(valence[a], valence[b]) == LEAST or max(valence[c], valence[d]) == MOST:
             continue
@@ -80,11 +81,13 @@ def flip_edges(num_points, faces, six, random):
         beyond[d, c], beyond[c, d] = a, b
         beyond[c, a], beyond[a, d] = d, c
         beyond[d, b], beyond[b, c] = c, d
-        edges += [(c, d), (d, c)]
+        edges[i] = (c, d)
         for vertex, change in ((a, -1), (b, -1), (c, 1), (d, 1)):
             sixes -= valence[vertex] == 6
             valence[vertex] += change
             sixes += valence[vertex] == 6
+    else:
+        sys.exit(f"random flips do not leave as few as {six} of the points with valence 6")
     return [(a, b, c) for (a, b), c in beyond.items() if a < b and a < c]
 
 

@@ -4,12 +4,13 @@ LAMMPS' Lennard-Jones benchmark, both timed in this run.
 
   bench/run_bench.py [--lmp build/lmp] [--repeat 5] [--levels 3,4,5,6,7] [--ranks 2] [--solvent yes] [--out bench]
 
-A sphere of 10*4^level + 2 control points; with 2,562 of them also meshes of valences 4 to 11, a vesicle
-of 1,800 points from others and the sphere with flips of random edges (random_valences.py); with 10,242 points also
+A sphere of 10*4^level + 2 control points; with 2,562 of them also meshes of random valences, a thermal vesicle
+of 1,800 points (4 to 11) and the sphere with flips of random edges (4 to 10, random_valences.py); with 10,242 points also
 ten lipids a face that trade places. Last fix srd/mesh beside LAMMPS' fix srd, the same solvent in the same box, in
-bulk and around a vesicle of 642 control points, for which lmp needs LAMMPS' package SRD: --levels "" has that alone.
+bulk and around a vesicle of 642 control points, if lmp has LAMMPS' package SRD: --levels "" has that alone.
 In each round the benchmark is run before the cases of a level; the tables have the median over the rounds and, in
-brackets, the smallest and the largest. Writes OUT.csv and, with python3-matplotlib, OUT.png."""
+brackets, the smallest and the largest; that of solvent also the ratio of the fastest rounds, which a busy machine
+disturbs least. Writes OUT.csv and, with python3-matplotlib, OUT.png."""
 
 import argparse
 import csv
@@ -200,13 +201,17 @@ def spread(values):
 
 def solvent(lmp, repeat):
     """Prints a table; rows of LJ units an atom and step."""
-    rounds = []
+    if not re.search(r"\bsrd\s", subprocess.run([lmp, "-help"], capture_output=True, text=True).stdout):
+        print("no solvent: lmp has no package SRD")
+        return []
+    rounds, times = [], {name: [] for name in SOLVENT_CASES}
     for i in range(repeat):
         unit = lj_unit(lmp)
         rounds.append({})
         for name, variables in SOLVENT_CASES.items():
             output = lammps(lmp, "in.srd", variables)[0]
-            rounds[-1][name] = seconds(output[output.rindex("Loop time"):], "Loop") / unit
+            times[name].append(seconds(output[output.rindex("Loop time"):], "Loop"))
+            rounds[-1][name] = times[name][-1] / unit
         print(f"\rsolvent, round {i + 1} of {repeat}", end="", file=sys.stderr, flush=True)
     print("\r", end="", file=sys.stderr)
     reference = next(iter(SOLVENT_CASES))
@@ -215,7 +220,7 @@ def solvent(lmp, repeat):
     for name in SOLVENT_CASES:
         values = [r[name] for r in rounds]
         print(f"{name:38s} {spread(values)}   {spread([r[name] / r[reference] for r in rounds])}"
-              f"  {min(values) / min(r[reference] for r in rounds):6.3f}")
+              f"  {min(times[name]) / min(times[reference]):6.3f}")
         rows.append([name, "", statistics.median(values), min(values), max(values)])
     return rows
 
@@ -240,6 +245,8 @@ def plot(rows, set_up_rows, path):
         return
     once = [row for row in rows if row[0] in {**THERMAL_CASES, **FLIPPED_CASES, **LIPID_CASES, **SOLVENT_CASES}]
     panels = ["sizes", "set-up"] * bool(set_up_rows) + ["once"] * bool(once)
+    if not panels:
+        return
     figure, axes = plt.subplots(1, len(panels), figsize=(5.5 * len(panels), 4.5), layout="constrained", squeeze=False)
     by_name = dict(zip(panels, axes[0]))
     if set_up_rows:

@@ -392,9 +392,10 @@ void HelfrichModel::check_quadrature()
 {
   if (quadrature() == Quadrature::CAREFUL) return;
   scene.mesh->refresh();
-  if (!finer_rules)
+  if (!finer_rules && quadrature() == Quadrature::TWELVE) finer_rules = std::make_unique<PatchRules>(Quadrature::CAREFUL);
+  if (!finer_rules)    // SIX has twelve points where faces are narrow: others there
     finer_rules = std::make_unique<PatchRules>(
-        quadrature() == Quadrature::TWELVE ? Quadrature::CAREFUL : Quadrature::TWELVE);
+        Quadrature::TWELVE, quadrature() == Quadrature::SIX ? Quadrature::SIX : Quadrature::TWELVE);
   faces = exclusion.remaining_faces(*scene.mesh);
   const double here = bending_energy(*rules), there = bending_energy(*finer_rules);
   const std::vector<double> kc = bending_moduli();

@@ -35,7 +35,7 @@ FaceQuarters::FaceQuarters(const std::vector<FaceGroup> &groups)
     const PatchRule *rule;
     std::vector<Member> members;
   };
-  std::map<std::pair<int, int>, Kind> kinds;    // by numbers of control points and of points of quadrature
+  std::map<std::pair<int, int>, Kind> kinds;    // by numbers of control points and of points of quadrature, which no two rules of a mesh share
   size_t num_points = 0;
   for (const FaceGroup &group : groups) {
     const FaceCut &cut = group.rule->cut;

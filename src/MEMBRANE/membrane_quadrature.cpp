@@ -280,8 +280,10 @@ static int points_on(CornerPatch patch, int valence, Quadrature quadrature)
   return quadrature == Quadrature::THREE ? found->second.face_of_three : found->second.face_of_six;
 }
 
-PatchRules::PatchRules(Quadrature quadrature) :
-    quadrature_(quadrature), triangle_(triangle_rule(quadrature))
+PatchRules::PatchRules(Quadrature quadrature) : PatchRules(quadrature, finer_rule(quadrature)) {}
+
+PatchRules::PatchRules(Quadrature quadrature, Quadrature narrow) :
+    quadrature_(quadrature), narrow_(narrow), triangle_(triangle_rule(quadrature))
 {
 }
 
@@ -294,8 +296,8 @@ const PatchRule &PatchRules::get(const Valences &valences)
 
 const PatchRule &PatchRules::squeezed()
 {
-  if (finer_rule(quadrature_) == quadrature_) return get({6, 6, 6});
-  if (squeezed_.npoints == 0) squeezed_ = regular_face(finer_rule(quadrature_));
+  if (narrow_ == quadrature_) return get({6, 6, 6});
+  if (squeezed_.npoints == 0) squeezed_ = regular_face(narrow_);
   return squeezed_;
 }
 
@@ -410,7 +412,7 @@ PatchRule PatchRules::graded(int n) const
   const RowVectorXd mask = basis.corner_mask(0);
   const double shrink = subdominant_eigenvalue(n);
 
-  const Quadrature quadrature = n >= SQUEEZING_VALENCE ? finer_rule(quadrature_) : quadrature_;
+  const Quadrature quadrature = n >= SQUEEZING_VALENCE ? narrow_ : quadrature_;
   PatchRule level = regular_children(basis, quadrature), rule;
   PatchRule tip;
   for (int q = 0; q < triangle_.size(); ++q)

@@ -26,7 +26,7 @@ namespace Membrane_NS {
 /** How finely integrals over the limit surface are taken.
 
     ONE, THREE, SIX, TWELVE: that many Gauss points on a regular face, exact for polynomials of
-    degree 1, 2, 4, 6. CAREFUL: as many as 1e-7 of the energy of a well-shaped mesh needs. */
+    degree 1, 2, 4, 6; see PatchRules for others and for regular ones near a vertex of large valence. CAREFUL: as many as 1e-7 of the energy of a well-shaped mesh needs. */
 enum class Quadrature { ONE, THREE, SIX, TWELVE, CAREFUL };
 
 /// From "1", "3", "6", "12", "careful"; false if it is none of these.
@@ -87,23 +87,28 @@ struct PatchRule {
     Other rules and corners are graded and self-similar: the face is cut in four, the
     part at the corner again, and so on, each regular part getting the triangle rule, or from the
     third cut on, which leaves parts an eighth as wide as the face, the next coarser one (SIX and TWELVE).
-    From valence 11 on, where faces are narrow, THREE and SIX take the next finer one in these places, as they do on regular
-    faces and quarters there.
     The last, the tip, is integrated too: a rule that leaves it out lets a minimiser hide energy there. The
     number of levels follows from how fast the energy of a level decays at that valence, so that
-    the tip holds 1e-4 of the patch's energy (CAREFUL: 1e-11). */
+    the tip holds 1e-4 of the patch's energy (CAREFUL: 1e-11).
+
+    Around vertices of valence 11 and more faces are narrow, and THREE and SIX take the next finer triangle rule on regular
+    faces, see Topology::is_squeezed(), on regular quarters of the vertex's own, and in graded rules, from the
+    third cut on the next coarser one to that. */
 class PatchRules {
  public:
   explicit PatchRules(Quadrature quadrature);
+  /// With another rule than the next finer one where faces are narrow.
+  PatchRules(Quadrature quadrature, Quadrature narrow);
   PatchRules(const PatchRules &) = delete;    // rules of faces point to those of their quarters
+  /// Of a face that is not squeezed, see Topology::is_squeezed().
   const PatchRule &get(const Valences &valences);
-  /// Of regular faces and quarters near a vertex of large valence, see Topology::is_squeezed().
+  /// Of one that is, which is regular.
   const PatchRule &squeezed();
   Quadrature quadrature() const { return quadrature_; }
   double memory_usage() const;
 
  private:
-  Quadrature quadrature_;
+  Quadrature quadrature_, narrow_;
   TriangleRule triangle_;
   std::map<Valences, PatchRule> rules_;
   std::map<int, PatchRule> tips_;    // by valence: the patch (n, 6, 6)

@@ -216,7 +216,7 @@ double CollisionRule::thermal_scale(int64_t number, uint64_t step, const double 
     const auto x = random.normals(number, 2 * block)[0];
     const double v = std::pow(1.0 + c * x, 3);
     if (!(v > 0.0)) continue;
-    const double u = random.uniforms(number, 4 * block + 2)[0];
+    const double u = random.uniforms(number, 2 * block + 1)[0];
     if (std::log(u) < 0.5 * x * x + d - d * v + d * std::log(v))
       return std::sqrt(settings_.kT * d * v / had);
   }

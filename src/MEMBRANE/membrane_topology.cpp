@@ -208,7 +208,7 @@ bool Topology::is_regular(int f) const
 }
 
 /* ----------------------------------------------------------------------
-   how many edges further the nearest vertex of large valence squeezes faces, and one more
+   how many edges further some vertex of large valence squeezes faces, at most, and one more
 ------------------------------------------------------------------------- */
 
 void Topology::find_squeezed()

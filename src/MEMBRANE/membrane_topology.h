@@ -40,8 +40,8 @@ constexpr int MOST_VALENCE = 32;
 /// Likewise: the largest number of control points of one face.
 constexpr int MOST_STENCIL = 3 * MOST_VALENCE - 6;
 
-/// From this valence on faces around a vertex are so narrow that they take finer quadrature; around fewer a minimiser hides less
-/// than 1e-5 of a sphere's energy from the default rule, see ground_relaxation.
+/// From this valence on faces around a vertex are so narrow that they take finer quadrature; around vertices of smaller
+/// valence a minimiser hides less than 1e-5 of a sphere's energy from the default rule, see ground_relaxation.
 constexpr int SQUEEZING_VALENCE = 11;
 
 /// A contiguous run of ints owned by somebody else.

@@ -62,7 +62,8 @@ static constexpr double LONGEST = 0.5;
 // solvent faster than this, in root mean squares, needs more than one look
 static constexpr double FAST = 2.5;
 
-// of an atom that is anywhere in memory: its pointer, which is elsewhere, would have to come first
+// Rows of LAMMPS' arrays of vectors are one block. So a row is found without its pointer, which for an atom anywhere in
+// memory would have to be fetched first
 
 static Eigen::Map<Vector3d> row(double **array, int i)
 {

@@ -804,10 +804,15 @@ TEST(Threefold, PointsGiveWhatRowsTimesControlPointsGive)
 
 TEST(Quarters, GiveWhatRowsTimesControlPointsGive)
 {
-  const TriangleMesh mesh = perturbed(flipped(icosphere(2, 1.0), 60, 10, 3), 0.03, 78);
+  // the second mesh has valence 11, so some regular quarters take more points than others
+  const TriangleMesh mesh =
+      perturbed(together(flipped(icosphere(2, 1.0), 60, 10, 3), loop_refine(bipyramid(11)), {4.0, 0.0, 0.0}), 0.03, 78);
   for (Quadrature quadrature : {Quadrature::THREE, Quadrature::SIX, Quadrature::TWELVE})
     for (const auto &[term, moduli] : TERMS) {
       Scene scene(mesh, quadrature, {moduli});
+      int regular = 0;
+      for (const FaceGroup &group : scene.groups().quarters.groups()) regular += group.rule->size == 12;
+      EXPECT_EQ(regular, quadrature == Quadrature::TWELVE ? 1 : 2);
       EXPECT_GT(scene.groups().quarters.groups().size(), 3u);
       expect_rows(scene, name(quadrature) + ", " + term);
     }
@@ -899,7 +904,7 @@ TEST(Groups, HoldEveryFaceOnceWithItsOwnStencil)
   const Topology topology = topology_of(mesh);
   std::vector<int> faces;
   for (int f = 0; f < topology.num_faces(); f += 2) faces.push_back(f);    // not all of them
-  PatchRules rules(Quadrature::ONE);
+  PatchRules rules(Quadrature::SIX);
   const std::vector<FaceGroup> groups = group_faces(topology, rules, faces);
 
   std::vector<int> seen;
@@ -923,6 +928,7 @@ TEST(Groups, HoldEveryFaceOnceWithItsOwnStencil)
       EXPECT_EQ(group.rule, topology.is_squeezed(group.face[i]) ? &rules.squeezed() : &rules.get(n));
     }
   }
+  EXPECT_TRUE(std::any_of(groups.begin(), groups.end(), [&](const FaceGroup &group) { return group.rule == &rules.squeezed(); }));
   EXPECT_EQ(count_slots(groups), slot);
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(seen, faces);

@@ -330,6 +330,10 @@ TEST(PatchRules, CountOfPointsFollowsFromTheValence)
           << "valence " << n;
     }
   for (const Rules &r : narrow) EXPECT_EQ(shared_rules(r.own).squeezed().npoints, triangle_rule(r.wide).size());
+  PatchRules other(Quadrature::TWELVE, Quadrature::SIX);    // what the default rule is compared with
+  EXPECT_EQ(other.get({6, 6, 6}).npoints, 12);
+  EXPECT_EQ(other.squeezed().npoints, 6);
+  EXPECT_EQ(other.get({16, 6, 6}).npoints, WIDE * 6 + (parts.at(16) - WIDE - 1) * 3 + 12);
 
   const PatchRules fresh(Quadrature::SIX);
   EXPECT_EQ(fresh.quadrature(), Quadrature::SIX);

@@ -195,6 +195,7 @@ TEST(Relaxation, NoSurfaceHasLessThanASphereOrHidesEnergyFromTheDefaultRule)
                                {"valence 9", on_sphere(bipyramid(9), 2), 600, 1e-3, 1e-5},
                                {"valence 10", on_sphere(bipyramid(10), 2), 600, 1e-3, 1e-5},
                                {"valence 12", on_sphere(bipyramid(12), 2), 600, 1.5e-3, 1e-5},
+                               {"valence 13", on_sphere(bipyramid(13), 2), 600, 2e-3, 1e-5},
                                {"valence 16", on_sphere(bipyramid(16), 2), 600, 1e-2, 1e-5}});
   for (const Case &c : cases) {
     TriangleMesh mesh = interpolate(c.mesh);

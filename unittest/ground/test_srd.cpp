@@ -279,6 +279,30 @@ TEST(SRDCollision, RandomNumbersDependOnCellStepAndSeedAlone)
   EXPECT_NE(action(rule, 3, 10), action(CollisionRule(other), 3, 10));
 }
 
+TEST(SRDCollision, ManyCellsDoWhatEachDoesAlone)
+{
+  constexpr int CELLS = 3 * CounterRandom::MANY + 5;
+  for (bool thermostat : {false, true}) {
+    const auto rule = rule_of(SRD, thermostat);
+    std::vector<int64_t> numbers;
+    std::vector<double> moments;
+    for (int c = 0; c < CELLS; ++c) {
+      numbers.push_back(7 * c % CELLS);
+      const double count = c % 5;    // none in some
+      moments.insert(moments.end(), {count, count, 0.1 * count, -0.2 * count, 0.3 * count});
+      if (thermostat) moments.push_back(2.0 * count);
+    }
+    ASSERT_EQ(moments.size(), static_cast<size_t>(CELLS) * rule.num_moments());
+    std::vector<double> actions(CELLS * rule.num_actions(), 0.0);
+    rule.prepare(CELLS, numbers.data(), 10, moments.data(), actions.data());
+    for (int c = 0; c < CELLS; ++c) {
+      std::vector<double> alone(rule.num_actions(), 0.0);
+      rule.prepare(1, &numbers[c], 10, &moments[c * rule.num_moments()], alone.data());
+      for (int k = 0; k < rule.num_actions(); ++k) EXPECT_EQ(actions[c * rule.num_actions() + k], alone[k]) << c;
+    }
+  }
+}
+
 TEST(SRDCollision, MomentsOfPartsAddUp)
 {
   for (const auto &rule : {rule_of(SRD), rule_of(SRD, true), rule_of(AT_A)}) {
