@@ -26,6 +26,8 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
@@ -63,9 +65,12 @@ ComputeHDTemp::~ComputeHDTemp()
 
 void ComputeHDTemp::init()
 {
+  overdamped = nullptr;
   if (!settings_given)
-    if (auto *integrator = FixHDBase::of_group(lmp, groupbit, "Compute hd/temp"))
+    if (auto *integrator = FixHDBase::of_group(lmp, groupbit, "Compute hd/temp")) {
       mass.settings = integrator->mass_settings();
+      if (integrator->drag_coefficient() > 0.0) overdamped = integrator;
+    }
   mass.settings.solve_nothing();
   mass.init(true);
   binds.clear();
@@ -101,11 +106,15 @@ void ComputeHDTemp::dof_compute()
 
 /* ---------------------------------------------------------------------- */
 
-// twice the kinetic energy, xx yy zz xy xz yz
+// twice the kinetic energy, xx yy zz xy xz yz; of points that move without inertia what their momenta would have
 
 void ComputeHDTemp::kinetic(double *t)
 {
-  mass.kinetic(t);
+  if (overdamped) {
+    std::fill_n(t, 6, 0.0);
+    std::fill_n(t, 3, (dof / 3.0 - bound) * overdamped->sampled_kT() / force->mvv2e);
+  } else
+    mass.kinetic(t);
   if (bound == 0) return;
   double mine[6] = {}, all[6];
   for (const FixHDBound *bind : binds)
@@ -124,7 +133,7 @@ double ComputeHDTemp::compute_scalar()
   invoked_scalar = update->ntimestep;
   double t[6];
   kinetic(t);
-  const int now = mass.matrix().lost_freedoms();
+  const int now = overdamped ? 0 : mass.matrix().lost_freedoms();
   if (dynamic || now != lost) {
     lost = now;
     dof_compute();

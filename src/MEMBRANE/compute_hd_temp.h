@@ -27,7 +27,8 @@ ComputeStyle(hd/temp,ComputeHDTemp);
 
 namespace LAMMPS_NS {
 
-/// Temperature of control points, from the kinetic energy qdot^T M qdot / 2, and of atoms bound to them.
+/// Temperature of control points, from the kinetic energy qdot^T M qdot / 2, and of atoms bound to them; that of the bath for
+/// points that move without inertia.
 class ComputeHDTemp : public Compute {
  public:
   ComputeHDTemp(class LAMMPS *, int, char **);
@@ -42,6 +43,7 @@ class ComputeHDTemp : public Compute {
   double tfactor;
   HDMass mass;
   bool settings_given;
+  class FixHDBase *overdamped = nullptr;    // the integrator, if its points have no momenta
   int lost;    // degrees of freedom that the mass does not have
   std::vector<class FixHDBound *> binds;
   bigint bound;    // atoms of the group that they hold and others move

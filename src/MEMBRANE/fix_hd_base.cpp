@@ -66,7 +66,7 @@ FixHDBase::FixHDBase(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), mass(lmp, igroup, std::string("Fix ") + style),
     noise_steps(0), noise_seed(0), noise_step(-1), noise_numbering(-1), most_drift(0.0),
     moved_step(-1), drawn_for(-1), passes(0), forces_due(false), remembers(false), check(true), limit_due(false), limit(0.0),
-    watching(false), held_reference(-1), taken_back(0), tried_here(0),
+    watching(false), held_reference(-1), taken_back(0), tried_with(0.0), tried_here(0),
     taken_back_here(0), faces(std::make_unique<FaceWatch>(lmp, groupbit, std::string("Fix ") + style)),
     settled_step(-1), measured_step(-1)
 {
@@ -177,7 +177,8 @@ void FixHDBase::setup(int)
   limit_due = check && !respa && update->whichflag == 1 && update->nsteps >= WORTH_CHECKING;
   watching = check && !respa && update->whichflag == 1 && update->nsteps > 0;
   if (watching) faces->begin();
-  tried_here = taken_back_here = 0;
+  if (update->dt != tried_with) tried_here = taken_back_here = 0;
+  tried_with = update->dt;
 }
 
 /* ----------------------------------------------------------------------
@@ -287,7 +288,6 @@ void FixHDBase::kick_and_drift(double kick_step, double drift_step)
 template <bool KICKS> void FixHDBase::move(double kick_step, double step)
 {
   // here rather than in setup(), so that neither run 0 nor rerun pays for it
-
   if (limit_due) find_limit();
   if (modes()) settle(false);
 
@@ -437,9 +437,9 @@ bool FixHDBase::step_back(double half_kick)
   if (!faces->torn()) return false;
   ++taken_back;
   ++taken_back_here;
-  if (tried_here >= WORTH_CHECKING && 10 * taken_back_here > tried_here)
+  if (10 * taken_back_here > MAX(tried_here, WORTH_CHECKING))
     error->all(FLERR,
-               "Fix {}: {} of {} steps of this run would have torn the mesh and were taken back: the timestep {} is too "
+               "Fix {}: {} of {} steps of this timestep would have torn the mesh and were taken back: the timestep {} is too "
                "long; hd_timestep finds the limit", style, taken_back_here, tried_here, update->dt);
   const MeshPart &part = mass.part();
   const double kick = half_kick * force->ftm2v;
@@ -456,7 +456,7 @@ bool FixHDBase::step_back(double half_kick)
 bool FixHDBase::renew()
 {
   if (!sampling()) return false;
-  if (noise_steps % RENEW_EVERY == 0) mass.renew();
+  if (noise_steps % RENEW_EVERY == 0 && !(watching && faces->torn())) mass.renew();    // not for a step that is taken back
   const bool another = drawn_for != mass.references();
   drawn_for = mass.references();
   return another;

@@ -133,7 +133,8 @@ class FixHDBase : public Fix {
   std::vector<std::array<double, 6>> held;    // x and v of owned points
   int64_t held_reference;                     // of the mass matrix then
   bigint taken_back;                          // steps
-  bigint tried_here, taken_back_here;         // in this run
+  double tried_with;                          // the timestep that these were counted with, in runs one after the other
+  bigint tried_here, taken_back_here;
   std::unique_ptr<class FaceWatch> faces;
 
   void check_other_integrators();

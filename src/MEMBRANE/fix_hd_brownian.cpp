@@ -107,8 +107,9 @@ void FixHDBrownian::reset_dt()
 
 void FixHDBrownian::initial_integrate(int)
 {
-  renew();
   mass.refresh();
+  hold_on();
+  renew();
   std::swap(noise, unit_noise());
   ++noise_steps;
   accelerate();
@@ -117,7 +118,6 @@ void FixHDBrownian::initial_integrate(int)
 
   const double kT = force->boltz * temperature / force->mvv2e;
   balance(std::sqrt(0.5 * kT / dt), noise, unit_noise());
-  hold_on();
   drift(dt);
   step_back(0.0);
 }

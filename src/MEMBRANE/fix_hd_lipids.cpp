@@ -54,7 +54,7 @@ FixHDLipids::FixHDLipids(LAMMPS *lmp, int narg, char **arg) :
   parse(narg, arg);
   mesh.require();
   scalar_flag = vector_flag = 1;
-  size_vector = 3;
+  size_vector = 4;
   global_freq = 1;
   extscalar = 1;
   extvector = 0;
@@ -345,7 +345,7 @@ void FixHDLipids::visit()
   exchange->set_bending(std::move(bending));
   const auto random = [this](int stream) { return CounterRandom(seed, STREAMS * visits + stream); };
   const int64_t before[] = {exchange->attempted(), exchange->accepted()};
-  double change = 0.0;
+  double change = exchange->interaction_energy();    // which no total energy has
 
   if (diffusion > 0.0) {
     std::vector<std::array<double, 3>> cotangents(nfaces);
@@ -373,7 +373,7 @@ void FixHDLipids::visit()
     change += exchange->swap_leaflets(attempts(sum, LEAFLETS), weights, kT, random(LEAFLETS));
   }
 
-  energy += change;
+  energy += change - exchange->interaction_energy();
   attempted += exchange->attempted() - before[0];
   accepted += exchange->accepted() - before[1];
   ++visits;
@@ -402,6 +402,7 @@ double FixHDLipids::compute_vector(int which)
 {
   if (which == 0) return static_cast<double>(attempted);
   if (which == 1) return attempted > 0 ? static_cast<double>(accepted) / attempted : 0.0;
+  if (which == 3) return exchange ? exchange->interaction_energy() : 0.0;
   return static_cast<double>(visits);
 }
 

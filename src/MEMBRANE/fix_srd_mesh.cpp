@@ -195,8 +195,8 @@ void FixSRDMesh::setup_pre_neighbor()
 void FixSRDMesh::setup_pre_force(int)
 {
   zero_forces();
-  if (!velocities_set && given.set_velocities)
-    solvent.draw_velocities(given.seed, steps, fluid.kT());
+  if (update->whichflag == 2) return;    // a minimization has no solvent
+  if (!velocities_set && given.set_velocities) solvent.draw_velocities(given.seed, steps, fluid.kT());
   velocities_set = true;
 }
 

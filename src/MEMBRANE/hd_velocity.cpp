@@ -24,6 +24,7 @@
 #include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
+#include "hd_stiffness_probe.h"
 
 #include <Eigen/Dense>
 
@@ -54,6 +55,9 @@ void HDVelocity::command(int narg, char **arg)
   if (igroup < 0) error->all(FLERR, "Could not find hd_velocity group ID {}", arg[0]);
   HDMass mass(lmp, igroup, "hd_velocity");
   parse(narg, arg, mass, group->bitmask[igroup]);
+
+  // this mass is made of what the pair style resists, which has to know its membranes for that, also before the first run
+  if (mass.settings.kind == Membrane_NS::MassKind::SAMPLING) StiffnessProbe::place_atoms(lmp);
 
   mass.init(true);
   if (mass.count() == 0) error->all(FLERR, "hd_velocity: group {} has no control points", arg[0]);

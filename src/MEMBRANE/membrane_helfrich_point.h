@@ -159,23 +159,22 @@ class Leaflets {
   {
     const Lane KD = K * D, hD = curvature * D, sum = 1.0 + KD * D, square = curvature * curvature;
 
-    // of A no less than where w is 0
-
-    Lane up = sum + hD, down = sum - hD;
-    const Lane grown = up, shrunk = down;
-    up = up < LEAST_AREA ? Lane{} + LEAST_AREA : up;
-    down = down < LEAST_AREA ? Lane{} + LEAST_AREA : down;
-    const Lane inverse = 1.0 / (up * down);
-    const Lane n_up = curvature + 2.0 * KD, n_down = curvature - 2.0 * KD;
-    const Lane above = n_up * down * inverse, below = n_down * up * inverse;    // 2H of the leaflets
-
     Density e;
     e.bend = D * (hD * curvature - 2.0 * KD);
     Lane t = (e.bend - LEAFLETS_EXACT) * (1.0 / (LEAFLETS_THIN - LEAFLETS_EXACT));
     t = t < 0.0 ? Lane{} : t;
     t = t > 1.0 ? Lane{} + 1.0 : t;
+
+    // A, which is 0.1 or more as long as w is not 0, and n; in their place 1 and 0 where it is, since curvatures may be so
+    // large next to a point of large valence that their products are no numbers
+
+    const Lane grown = sum + hD, shrunk = sum - hD, n_up = curvature + 2.0 * KD, n_down = curvature - 2.0 * KD;
+    const Lane up = t < 1.0 ? grown : Lane{} + 1.0, down = t < 1.0 ? shrunk : Lane{} + 1.0;
+    const Lane inverse = 1.0 / (up * down);
+    const Lane bent_up = t < 1.0 ? n_up : Lane{}, bent_down = t < 1.0 ? n_down : Lane{};
+    const Lane above = bent_up * down * inverse, below = bent_down * up * inverse;    // 2H of the leaflets
     const Lane w = 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
-    const Lane more = n_up * above + n_down * below - 2.0 * square;
+    const Lane more = bent_up * above + bent_down * below - 2.0 * square;
     const Lane slope = (-30.0 / (LEAFLETS_THIN - LEAFLETS_EXACT)) * t * t * (1.0 - t) * (1.0 - t) * more * D;    // by x, times D
 
     e.value = 2.0 * square + w * more - 2.0 * (outer * n_up - inner * n_down) + outer * outer * grown + inner * inner * shrunk;
@@ -190,7 +189,6 @@ class Leaflets {
   }
 
  private:
-  static constexpr double LEAST_AREA = 0.1;    // (1 - sqrt(LEAFLETS_THIN)) = 0.106
   Lane quarter, D, outer, inner;
 };
 

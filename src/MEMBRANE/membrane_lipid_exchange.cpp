@@ -223,6 +223,12 @@ double LipidExchange::energy() const
 {
   double energy = 0.0;
   for (int f = 0; f < lipids_.num_faces(); ++f) energy += bending_energy(bending_[f], curvature(0, f), curvature(1, f));
+  return energy + interaction_energy();
+}
+
+double LipidExchange::interaction_energy() const
+{
+  double energy = 0.0;
   if (w_.empty()) return energy;
   const int nkinds = lipids_.num_kinds();
   for (int l = 0; l < 2; ++l)

@@ -85,6 +85,8 @@ class LipidExchange {
   double curvature(int leaflet, int face) const { return sums_[leaflet][face].mean; }
   /// The energy that swaps change, of all faces, anew: for checks.
   double energy() const;
+  /// The part of it that pairs of lipids have.
+  double interaction_energy() const;
 
  private:
   std::vector<ExchangedKind> kinds_;

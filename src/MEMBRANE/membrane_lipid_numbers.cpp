@@ -74,6 +74,9 @@ std::vector<int> largest_remainders(const std::vector<double> &weights, int sum)
   return shares;
 }
 
+// of what kinds are behind by: others are decided by their order, not by rounding, which differs between numbers of ranks
+static constexpr double SAME = 1.0e-6;
+
 std::vector<int> fill_faces(const std::vector<double> &wanted, int nkinds)
 {
   const size_t nfaces = wanted.size() / nkinds;
@@ -95,7 +98,7 @@ std::vector<int> fill_faces(const std::vector<double> &wanted, int nkinds)
       int next = -1;
       for (const bool asked_here : {true, false})    // others only where those are used up
         for (int k = 0; k < nkinds && (asked_here || next < 0); ++k)
-          if ((wanted[f * nkinds + k] > 0.0) == asked_here && left[k] > 0 && (next < 0 || behind[k] > behind[next])) next = k;
+          if ((wanted[f * nkinds + k] > 0.0) == asked_here && left[k] > 0 && (next < 0 || behind[k] > behind[next] + SAME)) next = k;
       --left[next];
       behind[next] -= 1.0;
       ++numbers[f * nkinds + next];

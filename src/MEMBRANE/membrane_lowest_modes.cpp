@@ -116,7 +116,8 @@ Eigenpairs Membrane_NS::lowest_eigenpairs(int count, const MatrixXd &start, cons
 
   for (int pass = 0;; ++pass) {
     result.values = eigen.eigenvalues().head(m);
-    const MatrixXd residual = now.ax - now.bx * result.values.asDiagonal();
+    MatrixXd residual = now.ax - now.bx * result.values.asDiagonal();
+    residual -= b_kept_out * (kept_out.transpose() * residual);    // there nothing can be done about it, if they are no eigenvectors
     const double largest = now.ax.leftCols(count).colwise().norm().maxCoeff();
     result.residuals = residual.leftCols(count).colwise().norm().transpose() / largest;
     if (pass == most_passes || result.residuals.maxCoeff() <= tolerance) break;

@@ -33,7 +33,7 @@ using ColumnMap = std::function<Eigen::MatrixXd(const Eigen::MatrixXd &)>;
 struct Eigenpairs {
   Eigen::VectorXd values;       ///< increasing
   Eigen::MatrixXd vectors;      ///< x^T B x = 1
-  Eigen::VectorXd residuals;    ///< |A x - lambda B x| over the largest |A x| of these
+  Eigen::VectorXd residuals;    ///< |A x - lambda B x|, less B times excluded columns, over the largest |A x| of these
   int products;                 ///< of A with a column
 };
 

@@ -126,9 +126,8 @@ void SamplingMass::build_factors(const Topology &topology, const std::vector<dou
   }
   sliding_ = cotangent_laplacian(reference.shape, topology, shear) + diagonal(rest);
 
-  const double unit = 1.0 / settings_.unit;
-  undulation_ *= unit;
-  sliding_ *= unit;
+  undulation_ *= settings_.unit;
+  sliding_ *= settings_.unit;
   normal_factor_ = std::make_unique<SparseCholesky>(undulation_);
   tangent_factor_ = std::make_unique<SparseCholesky>(sliding_);
   SparseMatrix blocked = sliding_;
@@ -166,7 +165,7 @@ void SamplingMass::find_turning(const Topology &topology, const std::vector<doub
     for (int v : turning.vertices) square += normals_[v] * normals_[v].transpose();
     turning.inverse_square = square.inverse();
     const double a = 4.0 * M_PI / areas[c];
-    turning.mobility = settings_.unit / (TRANSLATION * 4.0 * M_PI * a * kc / n);
+    turning.mobility = 1.0 / (settings_.unit * TRANSLATION * 4.0 * M_PI * a * kc / n);
     turning_.push_back(std::move(turning));
   }
 }
@@ -187,7 +186,7 @@ void SamplingMass::build_totals(const Topology &topology)
   int j = 0;
   for (const auto &total : totals) {
     for (int v = 0; v < n; ++v) u_.col(j).segment<3>(3 * v) = total.gradient[v];
-    softness[j++] = settings_.unit / total.stiffness;
+    softness[j++] = 1.0 / (settings_.unit * total.stiffness);
   }
   for (const Turning &turning : turning_)
     for (int k = 0; k < 3; ++k, j += 2)

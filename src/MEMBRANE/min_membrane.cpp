@@ -56,14 +56,14 @@ void MinMembrane::init()
 {
   MinLineSearch::init();
   mesh.require();
-  if (nextra_global || nextra_atom)
-    error->all(FLERR, "Min style membrane moves atoms only: use another min_style with fix "
-                      "box/relax and with pair styles that have extra degrees of freedom");
 }
 
 void MinMembrane::setup_style()
 {
   MinLineSearch::setup_style();
+  if (nextra_global || nextra_atom)
+    error->all(FLERR, "Min style membrane moves atoms only: use another min_style with fix "
+                      "box/relax and with pair styles that have extra degrees of freedom");
   for (int i = 0; i < 2 * MEMORY; ++i) fix_minimize->add_vector(3);
   mesh.init();
   shape = mesh->triangle_mesh();

@@ -19,10 +19,12 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "memory.h"
 #include "mesh_angle_style.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
@@ -34,6 +36,9 @@ using Membrane_NS::Quadrature;
 
 // first in each block of a restart file
 static constexpr int RESTART_MARK = 0x48464d31;
+
+// boxes
+static constexpr double MOST_SKIN = 10.0;
 
 /* ---------------------------------------------------------------------- */
 
@@ -119,6 +124,10 @@ void PairHelfrich::init_style()
 {
   set_angle_style_of_faces(lmp);
   model.init();
+  if (neighbor->skin > MOST_SKIN * std::max({domain->xprd, domain->yprd, domain->zprd}))
+    error->all(FLERR,
+               "Pair helfrich: the skin {} of neighbor lists is many times the box, and so would be the number of images: use "
+               "the neighbor command with a skin of about an edge, {:.2g}", neighbor->skin, model.mesh().longest_edge());
   if (update->whichflag == 1) foreign_integrators.warn(model.mesh());
 }
 

@@ -213,10 +213,11 @@ std::array<double, 2> SurfaceRegions::volumes() const
 {
   constexpr double G = 1.2207440846057596;
   const Vector3d stride(1.0 / G, 1.0 / (G * G), 1.0 / (G * G * G));
+  const auto lo = in_box_lengths(*domain, domain->boxlo);    // where sides are known, space begins at 0 and not with the box
   int mine = 0, odd_places;
   for (int i = comm->me; i < PLACES; i += comm->nprocs) {
     Vector3d x = Vector3d::Constant(0.5) + i * stride;
-    for (double &c : x) c -= std::floor(c);
+    for (int k = 0; k < 3; ++k) x[k] += lo[k] - std::floor(x[k]);
     int level = 0;
     for (int c : motion.surface().components()) level += sides[c].level(x);
     mine += level & 1;

@@ -13,6 +13,7 @@
 
 #include "membrane_helfrich.h"
 
+#include "membrane_helfrich_point.h"
 #include "scene.h"
 
 #include <gtest/gtest.h>
@@ -860,6 +861,24 @@ TEST(Leaflets, MeanBendOfASphere)
     }
   const double exact = 2.0 * std::pow(moduli.leaflet / radius, 2);
   EXPECT_NEAR(bend / area, exact, 0.03 * exact);
+}
+
+// careful rules come so near to a control point of valence 30 that curvatures are 1e94 there
+TEST(Leaflets, AreFiniteWhereCurvaturesHaveNoBound)
+{
+  FaceModel model;
+  model.resize(LANES);
+  model.kc.assign(LANES, 2.0);
+  model.leaflet.assign(LANES, 0.01);
+  model.outer.assign(LANES, 0.2);
+  model.inner.assign(LANES, -0.1);
+  const Leaflets leaflets(model, Slots{0});
+  for (double curvature : {1e2, 1e4, 1e94, -1e94, 1e120}) {
+    const auto e = leaflets.at(Lane{} + curvature, Lane{} - 0.3 * curvature * curvature);
+    for (const Lane &number : {e.value, e.by_curvature, e.by_gaussian, e.bend}) EXPECT_TRUE(std::isfinite(number[0])) << curvature;
+    // 2H of the bilayer alone, as w is 0
+    EXPECT_NEAR(e.by_curvature[0] / (2.0 * curvature), 1.0, std::fabs(1.0 / curvature)) << curvature;
+  }
 }
 
 TEST(Quarters, TakeWhatIsLeftOfFullBlocks)

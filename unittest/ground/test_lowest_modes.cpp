@@ -98,6 +98,26 @@ TEST(LowestEigenpairs, LeaveOutWhatIsExcluded)
   EXPECT_LT((excluded.transpose() * problem.b * found.vectors).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+// as rigid motions along normals are, where displacements along a surface have a stiffness, too
+TEST(LowestEigenpairs, LeaveOutWhatIsNoEigenvector)
+{
+  const int n = 80;
+  const Problem problem(n);
+  const MatrixXd excluded = numbers(n, 2, 5) + 3.0 * problem.vectors.leftCols(2);
+  const MatrixXd rough = (problem.a + 3.0 * problem.b).inverse();
+  const auto found = lowest_eigenpairs(4, numbers(n, 8, 3), excluded, times(problem.a), times(problem.b), times(rough),
+                                       1e-9, 200);
+  EXPECT_LE(found.residuals.maxCoeff(), 1e-9);
+
+  // the same within the B-complement of the columns
+  const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(problem.b * excluded).householderQ();
+  const MatrixXd rest = q.rightCols(n - 2);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(rest.transpose() * problem.a * rest,
+                                                                  rest.transpose() * problem.b * rest);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(found.values[k], eigen.eigenvalues()[k], 1e-9 * found.values[k]) << k;
+  EXPECT_LT((excluded.transpose() * problem.b * found.vectors).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(LowestEigenpairs, SayHowFarTheyCame)
 {
   const int n = 60;

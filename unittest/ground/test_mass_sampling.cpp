@@ -136,7 +136,7 @@ TEST(SamplingMass, ATotalAddsItsStiffness)
   for (int i = 0; i < without.size(); ++i) g.segment<3>(3 * i) = length[without.part.vertices[i]];
   const Eigen::MatrixXd inverse = without.inverse();
   const Eigen::VectorXd y = inverse * g;
-  const double own = 1.0 / g.dot(y), added = Sampled::SOFT / UNIT;
+  const double own = 1.0 / g.dot(y), added = Sampled::SOFT * UNIT;
   EXPECT_LT(added, 2.0 * own);
   EXPECT_LT(own, 2.0 * added);
   const Eigen::MatrixXd expected = inverse - y * y.transpose() / (1.0 / own + 1.0 / added);
@@ -167,7 +167,7 @@ TEST(SamplingMass, TheMeasureIsATensionOfLongWaves)
   // edges are 1 long along x or lie at 60 degrees; the mean of |grad h|^2 is q^2/2 as q becomes small
   const double slope = (4.0 * std::pow(std::sin(0.5 * q), 2) + 8.0 * std::pow(std::sin(0.25 * q), 2)) / 3.0;
   const double faces = body.topology.num_faces();
-  EXPECT_NEAR(energy[1] - energy[0], 0.75 * warm.measure * faces * slope / UNIT, 1e-9 * energy[1]);
+  EXPECT_NEAR(energy[1] - energy[0], 0.75 * warm.measure * faces * slope * UNIT, 1e-9 * energy[1]);
 }
 
 TEST(SamplingMass, NoiseHasTheInverseAsCovariance)

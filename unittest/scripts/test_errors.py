@@ -131,6 +131,10 @@ CASES = [
      "pair_coeff 2 2 10.0 0.0 area/difference 1.0 init thickness 0.2\nrun 0\n",
      "Membrane 1 has control points of types with different area/difference coefficients"),
 
+    # === The default skin of units si, in a box of some nanometers
+    (create("1 sphere 1 50e-9", BOX.replace("units lj", "units si").replace("-2 2 -2 2 -2 2", "-1e-7 1e-7 -1e-7 1e-7 -1e-7 1e-7")) +
+     "pair_style helfrich\npair_coeff * * 8e-20 0.0\nrun 0\n", "use the neighbor command with a skin of about an edge"),
+
     # === Shapes that cannot be, at the start and on the way
     (create("1 sphere 0 3.0"), "create_membrane sphere: an edge spans half the periodic box in"),
     (create("1 sphere 0 3.0 refine 2"), "create_membrane sphere: an edge spans half the periodic box in"),

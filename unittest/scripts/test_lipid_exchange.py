@@ -108,6 +108,12 @@ for more in ("", "leaflets 0.2", "leaflets 0.2 kg -5 volume 10 init"):
     claim(f"a membrane at rest{', ' + more if more else ''}: its energy changes by what fix hd/lipids says",
           error < 1e-9 * abs(rows[0]["PotEng"]) + 1e-8 and moved > 0.5, f"{error:.1e} of {moved:.2g}")
 
+rows = thermo(run(start(moves=MOVES, integrator="").replace("f_x[3]", "f_x[3] f_x[4]") + "run 20\n"))
+error = max(abs(row["Econserve"] - rows[0]["Econserve"]) for row in rows)
+contacts = abs(rows[-1]["f_x[4]"] - rows[0]["f_x[4]"])
+claim("  the energy of contacts is no part of it, and has a number of its own",
+      error < 1e-9 * abs(rows[0]["PotEng"]) + 1e-8 and contacts > 0.5, f"{error:.1e}, contacts change by {contacts:.2g}")
+
 # === Restart, and commands between two runs
 
 whole = thermo(run(start() + "run 20\nwrite_restart between.restart\nrun 20\n"))

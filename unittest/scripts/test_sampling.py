@@ -3,7 +3,7 @@ measure among fixes, along a ramp and in what is conserved; wrong input."""
 
 import math
 
-from lammps_claims import claim, error_of, finish, run, thermo
+from lammps_claims import claim, error_of, finish, lammps, run, thermo
 from mode_statistics import mean_and_error
 
 SCENE = """
@@ -60,6 +60,25 @@ claim("compute hd/temp reads the temperature of what moves, without rotations", 
 output = run(SCENE + LANGEVIN + "hd_timestep all\nrun 300\nhd_timestep all\n")
 found = [float(line.split()[-1]) for line in output.split("\n") if "recommended timestep" in line]
 claim("hd_timestep finds steps for it at rest and in thermal motion", 0.5 < found[1] <= found[0] < 1.3, found)
+
+# === Its unit of time is that of the simulation in any units, and with friction it is gamma_t
+
+
+def limit_of(fix, units="lj", more=""):
+    output = run(SCENE.replace("units           lj", f"units {units}") + fix.replace(" 0.05", " 1e-9") + more + "hd_timestep all\n")
+    return float(next(line for line in output.split("\n") if "stability limit" in line).split()[-1])
+
+
+for fix, name in ((LANGEVIN, "hd/langevin"), (BROWNIAN, "hd/brownian")):
+    found = {units: limit_of(fix.replace("sampling", "sampling measure no"), units) for units in ("lj", "real", "metal", "si")}
+    claim(f"{name}: the same limit in units lj, real, metal and si", max(found.values()) < 1.001 * min(found.values()), found)
+found = [limit_of(BROWNIAN.replace("sampling", f"sampling gamma_t {drag}")) for drag in (0.5, 1.0, 2.0)]
+claim("twice the drag, twice the time", all(abs(found[k + 1] / found[k] / 2 - 1) < 1e-3 for k in range(2)), found)
+rows = thermo(run(SCENE + BROWNIAN + "thermo_style custom step c_T press\nrun 20\n"))
+claim("with hd/brownian points have the temperature of the bath", all(abs(row["c_T"] / 0.05 - 1) < 1e-12 for row in rows[1:]),
+      rows[-1]["c_T"])
+output = run(SCENE + LANGEVIN + "hd_velocity all 0.05 77\nrun 0\n")
+claim("hd_velocity knows this mass before the first run", "taken anew" not in output)
 
 # === The reference
 
@@ -125,6 +144,12 @@ output = run(SCENE + LANGEVIN.replace("0.05 0.05", "0.01 0.05") + "run 400\n")
 claim("a reference is renewed when the temperature is another", "temperature has left that of the reference" in output)
 
 # === Steps that would tear the mesh
+
+for ranks in (1, 2):
+    for runs in ("run 1000 every 100 NULL\n", "run 90\n" * 6):
+        code, output = lammps(SCENE + LANGEVIN + "timestep 50\n" + runs, ranks=ranks)
+        claim(f"they are counted in short runs, too, and their shapes are no reference, {ranks} rank(s)",
+              code != 0 and "would have torn the mesh and were taken back" in output and "has left the reference" not in output)
 
 COUNTED = SCENE + LANGEVIN + "thermo_style custom step c_e[1] f_1[3]\nthermo_modify norm no\ntimestep "
 run(COUNTED + "1.5\n" + DUMP.format(path="one.dump") + "run 150\n")

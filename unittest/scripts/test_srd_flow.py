@@ -142,7 +142,7 @@ DENSE = THIN | dict(M=10)
 FLOWS = [("walls", 1000.0, THIN), ("walls", 500.0, DENSE), ("membranes", 300.0, DENSE),
          ("walls", 5000.0, dict(M=10, angle=90, dt=1.0, H=12, push=0.0025, speed=0.6))]
 if not LONG:
-    FLOWS = [("walls", 200.0, THIN), ("membranes", 50.0, THIN)]
+    FLOWS = [("walls", 260.0, THIN), ("membranes", 50.0, THIN)]
 
 for plates, time, parameters in FLOWS:
     for kind in ("Poiseuille", "Couette") if LONG or plates == "walls" else ("Poiseuille",):

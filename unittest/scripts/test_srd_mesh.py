@@ -497,4 +497,33 @@ for ranks in (1, 2):
     claim(f"solvent of two densities on {ranks}: two viscosities", abs(inside / bulk[10] - 1) < 0.01 and
           abs(outside / bulk[5] - 1) < 0.01 and outside < eta < inside, (inside, outside, eta))
 
+# === Volumes of the two sides do not depend on where the box is
+
+WALLED = """
+units           lj
+atom_style      membrane_cp
+boundary        p p f
+region          box block 0 12 0 12 {lo} {hi}
+create_box      2 box angle/types 1
+create_membrane 1 sphere 2 4.5 mass 5
+special_bonds   lj/coul 1 1 1
+create_solvent  2 outside 3.0 4711
+group           membrane type 1
+group           solvent type 2
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0
+timestep        0.005
+fix             2 solvent srd/mesh 10 membrane 1.0 1.0 4711 angle 130 shift yes 9127
+thermo_style    custom step f_2[9] f_2[22]
+run             10
+"""
+found = {lo: thermo(run(WALLED.format(lo=lo, hi=lo + 12)))[-1]["f_2[22]"] for lo in (0, -6, 7)}
+claim("a box with walls that begins elsewhere has the same viscosity", max(found.values()) < 1.005 * min(found.values()), found)
+
+# === A minimization before the first run has no solvent: velocities come after it
+
+rows = thermo(run(WALLED.format(lo=0, hi=12).replace("9127\n", "9127 ghosts yes\n").replace("f_2[9]", "f_2[1]")
+                  .replace("run             10", "minimize        1e-4 1e-4 10 100\nrun             10")))
+claim("solvent has its temperature after a minimization", abs(rows[-1]["f_2[1]"] - 1.0) < 0.1, rows[-1]["f_2[1]"])
+
 finish()
