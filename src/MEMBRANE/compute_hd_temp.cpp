@@ -99,7 +99,7 @@ void ComputeHDTemp::dof_compute()
     for (int i = 0; i < atom->nlocal; ++i)
       if (atom->mask[i] & groupbit && atom->mask[i] & bind->groupbit) ++mine;
   MPI_Allreduce(&mine, &bound, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  const double fixed = mass.settings.modes ? 0.0 : extra_dof;    // modes have no momentum of the whole
+  const double fixed = mass.settings.modes || overdamped ? 0.0 : extra_dof;    // these keep no momentum of the whole
   dof = 3.0 * (mass.count() + bound) - lost - fixed - fix_dof;
   tfactor = dof > 0.0 ? force->mvv2e / (dof * force->boltz) : 0.0;
 }
