@@ -38,6 +38,11 @@ TOTALS = {"terms": "area 100 init volume 100 init"}
 REGULARIZED = {"terms": TOTALS["terms"] + " regularize 1.0 conformal"}
 
 
+# messages of some kB go through memory that processes share: the kernel, which is asked to copy them else, is slow
+OPEN_MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+            "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_btl_vader_eager_limit": "16384"}
+
+
 def fix(style):
     return {"integrate": "yes", "fix": style}
 
@@ -139,7 +144,7 @@ def lammps(lmp, script, variables, ranks=1):
         command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
     for name, value in variables.items():
         command += ["-var", name, value]
-    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    environment = {**OPEN_MPI, **os.environ}
     start = time.time()
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                env=environment)
