@@ -433,7 +433,7 @@ void FixHDBase::hold_on()
 bool FixHDBase::step_back(double half_kick)
 {
   if (!watching || !sampling()) return false;
-  ++tried_here;
+  if (++tried_here > 4 * WORTH_CHECKING) tried_here /= 2, taken_back_here /= 2;    // what was long ago counts for less
   if (!faces->torn()) return false;
   ++taken_back;
   ++taken_back_here;
