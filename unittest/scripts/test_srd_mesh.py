@@ -522,8 +522,10 @@ claim("a box with walls that begins elsewhere has the same viscosity", max(found
 
 # === A minimization before the first run has no solvent: velocities come after it
 
-rows = thermo(run(WALLED.format(lo=0, hi=12).replace("9127\n", "9127 ghosts yes\n").replace("f_2[9]", "f_2[1]")
-                  .replace("run             10", "minimize        1e-4 1e-4 10 100\nrun             10")))
+PERIODIC = WALLED.replace("boundary        p p f\n", "").replace("outside", "both").replace("9127\n", "9127 ghosts yes\n")
+rows = thermo(run(PERIODIC.replace("fix             2", "fix             1 membrane hd/nve measure 1.0\nfix             2")
+                  .replace("f_2[9]", "f_2[1]").replace("10.0 0.0", "10.0 0.0 volume 100.0 init regularize 10.0 conformal")
+                  .replace("run             10", "minimize        1e-4 1e-4 10 100\nrun             30").format(lo=0, hi=12)))
 claim("solvent has its temperature after a minimization", abs(rows[-1]["f_2[1]"] - 1.0) < 0.1, rows[-1]["f_2[1]"])
 
 finish()
