@@ -53,6 +53,7 @@ CASES = {
     "force, 6 points": (DEFAULT, "Pair"),
     "force, 6 points, area and volume": ({**DEFAULT, **TOTALS}, "Pair"),
     "hd/nve, 3 points": ({**FAST, **fix("hd/nve")}, "Loop"),
+    "hd/nve solver iterative, 3 points": ({**FAST, **fix("hd/nve solver iterative")}, "Loop"),
     "hd/nve, 6 points": ({**DEFAULT, **fix("hd/nve")}, "Loop"),
     "hd/nve, 6 points, area and volume": ({**DEFAULT, **TOTALS, **fix("hd/nve")}, "Loop"),
     "hd/nve, 6 points, area, volume, regularize": ({**DEFAULT, **REGULARIZED, **fix("hd/nve")}, "Loop"),
@@ -85,7 +86,8 @@ SOLVENT_CASES = {
 # M^-1 f: what the fix takes with the mass matrix, less what it takes with a diagonal one
 SOLVE = "M^-1 f, tol 1e-10"
 MASK = "one solve with L"
-SCALING = ["hd/nve, 3 points", "hd/langevin, 3 points"]
+# hd/nve is direct on one process up to 15,000 points, and never on several
+SCALING = ["hd/nve, 3 points", "hd/nve solver iterative, 3 points", "hd/langevin, 3 points"]
 
 # floating-point operations of a quadrature point in the kernel of membrane_helfrich.cpp, no optional term: 5 derivatives
 # of points by threes, see membrane_threefold.h, forth and back, their combinations, and the energy density with its chain rule
