@@ -27,6 +27,7 @@
 #include "membrane_molecule_reader.h"
 #include "mesh_distributed.h"
 #include "mesh_gather.h"
+#include "platform.h"
 #include "update.h"
 
 #include <algorithm>
@@ -286,13 +287,15 @@ std::string MoleculesBuild::path_of(const std::string &format) const
 void MoleculesBuild::check_paths() const
 {
   std::string message;
-  if (comm->me == 0 && !overwrite)
-    for (const std::string &format : formats)
-      if (FILE *file = std::fopen(path_of(format).c_str(), "rb")) {
-        std::fclose(file);
-        message = "there is a file " + path_of(format) + " already: choose another name, or overwrite yes";
-        break;
-      }
+  if (comm->me == 0)
+    for (const std::string &format : formats) {
+      const std::string path = path_of(format), folder = platform::path_dirname(path);
+      if (!platform::path_is_directory(folder))
+        message = "there is no folder " + folder + " for " + path + ": create it";
+      else if (!overwrite && platform::file_is_readable(path))
+        message = "there is a file " + path + " already: choose another name, or overwrite yes";
+      if (!message.empty()) break;
+    }
   agree(message);
 }
 
