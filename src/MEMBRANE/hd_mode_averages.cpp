@@ -22,6 +22,7 @@
 #include "force.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -106,7 +107,7 @@ void ModeAverages::add(const std::vector<double> &number, const std::vector<doub
     const int r = row[i];
     if (r < 0) continue;
     sample[r] += power[i] / modes[r];
-    if (theory[i] > 0.0) sample[n + r] += power[i] / theory[i] / modes[r];
+    if (theory[i] != 0.0) sample[n + r] += theory[i] > 0.0 ? power[i] / theory[i] / modes[r] : NAN;
     sample[2 * n + r] += number[i] / modes[r];
   }
   blocks.add(sample);

@@ -94,6 +94,11 @@ rows = thermo(run(VESICLE + "compute a all hd/modes sphere 2 average 1\n" + cust
 claim("reset_timestep and minimizations between runs count for nothing", rows[-1]["c_a[5]"] == 80, rows[-1]["c_a[5]"])
 claim("without theory the ratio is 0", rows[-1]["c_a[1][5]"] == 0 and rows[-1]["c_a[1][3]"] > 0)
 
+row = thermo(run(VESICLE + "compute a all hd/modes sphere 3 average 1 theory 0.05 1.0 -8.0\n" + custom(2).format(5) +
+                 "run 10\n"))[-1]
+claim("where the tension of theory makes a mode grow its ratio is nan, and those of others are numbers",
+      math.isnan(row["c_a[1][5]"]) and row["c_a[2][5]"] > 0, (row["c_a[1][5]"], row["c_a[2][5]"]))
+
 # === Sheets: waves of the same length in a row
 
 rows = thermo(run(SHEET + "run 100\ncompute u all hd/modes plane 2\n"
