@@ -42,9 +42,11 @@ using Membrane_NS::VertexField;
 // a control point that moves further than this fraction of the longest edge in one step is lost
 static constexpr double MOST_DRIFT = 0.25;
 
-// mass sampling moves a membrane as a whole: so much of its radius, which is 0.26 edges times the root of
-// the number of its points
+// mass sampling moves a membrane as a whole: so much of its radius, which is 0.26 edges times the root of its points
 static constexpr double RADIUS = 0.26;
+
+// two fixes have the same temperature if they differ by less than this part of it
+static constexpr double SAME = 1.0e-9;
 
 // steps between looks at whether a shape has left the reference of mass sampling
 static constexpr int RENEW_EVERY = 100;
@@ -115,17 +117,9 @@ void FixHDBase::init()
 void FixHDBase::check_other_integrators()
 {
   for (auto &other : modify->get_fix_list()) {
-    if (other == this || !other->time_integrate) continue;
-    int mine = 0, any;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (atom->mask[i] & groupbit && atom->mask[i] & other->groupbit) mine = 1;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-    if (any)
-      error->all(
-          FLERR,
-          "Control points of fix {} are also moved by fix {} ({}): use groups without common "
-          "atoms",
-          id, other->id, other->style);
+    if (other != this && other->time_integrate && groups_meet(lmp, groupbit, other->groupbit))
+      error->all(FLERR, "Control points of fix {} are also moved by fix {} ({}): use groups without common atoms", id,
+                 other->id, other->style);
   }
 }
 
@@ -136,22 +130,28 @@ FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &use
   FixHDBase *found = nullptr;
   for (auto &fix : lmp->modify->get_fix_list()) {
     auto *integrator = dynamic_cast<FixHDBase *>(fix);
-    if (!integrator) continue;
-    int mine = 0, any;
-    for (int i = 0; i < lmp->atom->nlocal; ++i)
-      if (lmp->atom->mask[i] & groupbit && lmp->atom->mask[i] & integrator->groupbit) mine = 1;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp->world);
-    if (!any) continue;
+    if (!integrator || !groups_meet(lmp, groupbit, integrator->groupbit)) continue;
     if (found &&
         (found->mass_settings().kind != integrator->mass_settings().kind || found->modes() != integrator->modes() ||
          found->drag_coefficient() != integrator->drag_coefficient()))
-      lmp->error->all(FLERR,
-                      "{}: fixes {} and {} move atoms of the group with different mass matrices; "
-                      "use a group of one of them",
-                      user, found->id, integrator->id);
+      lmp->error->all(FLERR, "{}: fixes {} and {} move atoms of the group with different mass matrices; "
+                      "use a group of one of them", user, found->id, integrator->id);
     if (!found) found = integrator;
   }
   return found;
+}
+
+std::string FixHDBase::other_temperature(LAMMPS *lmp, const Fix *user, double temperature)
+{
+  for (auto &fix : lmp->modify->get_fix_list()) {
+    const auto *integrator = dynamic_cast<FixHDBase *>(fix);
+    if (!integrator || !groups_meet(lmp, user->groupbit, integrator->groupbit)) continue;
+    const double other = integrator->sampled_kT() / lmp->force->boltz;
+    if (other > 0.0 && std::fabs(other - temperature) > SAME * temperature)
+      return fmt::format("Fix {} has the temperature {:.6g}, and fix {} ({}) samples at {:.6g}: they need one temperature, "
+                         "all the time", user->style, temperature, fix->id, fix->style, other);
+  }
+  return "";
 }
 
 /* ---------------------------------------------------------------------- */

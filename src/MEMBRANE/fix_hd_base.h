@@ -56,6 +56,8 @@ class FixHDBase : public Fix {
   /// The fix of this kind that moves atoms of the group, if any. Collective; stops if there are
   /// several and their matrices differ.
   static FixHDBase *of_group(class LAMMPS *, int groupbit, const std::string &user);
+  /// What is wrong if a fix samples the shapes that `user` changes at another temperature; else empty. Collective.
+  static std::string other_temperature(class LAMMPS *, const Fix *user, double temperature);
   double drag_coefficient() const { return mass.drag_coefficient(); }
   const HDMass::Settings &mass_settings() const { return mass.settings; }
   /// From now on, remember by how much drift() moves the control points in a step.
@@ -73,9 +75,9 @@ class FixHDBase : public Fix {
   void forces_changed() { forces_due = true; }
   /// Collective: twice the kinetic energy by direction, mass times velocity squared.
   std::array<double, 3> twice_kinetic();
-  /// Its dynamics have no meaning.
   /// The modes that are all of its motion, or nullptr.
   const Membrane_NS::SharedModes *modes() const { return mass.settings.modes.get(); }
+  /// Its dynamics have no meaning.
   bool sampling() const { return mass.settings.kind == Membrane_NS::MassKind::SAMPLING; }
 
  protected:

@@ -20,6 +20,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_hd_base.h"
 #include "force.h"
 #include "group.h"
 #include "helfrich_model.h"
@@ -48,7 +49,7 @@ enum { NEIGHBORS, ANYWHERE = 2, LEAFLETS = 4, ROUNDING, STREAMS = 8 };
 
 FixHDLipids::FixHDLipids(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), temperature(0.0), diffusion(0.0), anywhere(0.0), flips(0.0), seed(0),
-    mesh(lmp, "Fix hd/lipids"), model(nullptr), composition(nullptr), filled(false), visits(0), last_visit(-1),
+    mesh(lmp, "Fix hd/lipids"), model(nullptr), composition(nullptr), warned(false), filled(false), visits(0), last_visit(-1),
     attempted(0), accepted(0), energy(0.0)
 {
   parse(narg, arg);
@@ -333,6 +334,11 @@ int64_t FixHDLipids::attempts(double mean, int which) const
 
 void FixHDLipids::visit()
 {
+  if (!warned) {
+    const std::string wrong = FixHDBase::other_temperature(lmp, this, temperature);
+    warned = !wrong.empty();
+    if (warned && comm->me == 0) error->warning(FLERR, wrong);
+  }
   const double time = update->dt * nevery, kT = force->boltz * temperature;
   const FaceLipids &lipids = exchange->lipids();
   const int nfaces = lipids.num_faces(), nmembranes = static_cast<int>(takes_part.size());

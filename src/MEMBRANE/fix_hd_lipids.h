@@ -90,6 +90,7 @@ class FixHDLipids : public Fix {
 
   // lipids, while faces stay
   std::unique_ptr<Membrane_NS::LipidExchange> exchange;
+  bool warned;    // that an integrator has another temperature
   bool filled;
   LipidPlaces places;
   std::vector<std::array<bigint, 3>> corners;    // by face: see KeptFace

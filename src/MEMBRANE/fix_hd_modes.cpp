@@ -78,11 +78,8 @@ void FixHDBase::check_box()
 {
   for (auto &other : modify->get_fix_list()) {
     if (!other->box_change) continue;
-    int mine = 0, any;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (atom->mask[i] & groupbit && atom->mask[i] & other->groupbit) mine = 1;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-    if (any || modes()->choice.shape == ModeChoice::Shape::PLANE)
+    const bool taken_along = groups_meet(lmp, groupbit, other->groupbit);
+    if (taken_along || modes()->choice.shape == ModeChoice::Shape::PLANE)
       error->all(FLERR,
                  "Fix {} modes are those of one box, and fix {} ({}) changes it: take the membrane out of its group if it is "
                  "closed, or move all control points",

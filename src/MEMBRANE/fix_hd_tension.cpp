@@ -185,6 +185,7 @@ bigint FixHDTension::next_visit() const
 void FixHDTension::end_of_step()
 {
   trial.expect(next_visit());
+  check_temperature();
   for (int k = 0; k < trials; ++k)
     if (attempt() && until_accepted) break;
   sample();

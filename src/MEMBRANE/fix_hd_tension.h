@@ -99,7 +99,7 @@ class FixHDTension : public Fix {
   void check_membranes();
   void check_bound_atoms();
   void check_measure();
-  void check_temperatures();
+  void check_temperature();
   void limit_steps();
 
   // moves

@@ -23,11 +23,11 @@
 #include "error.h"
 #include "fix_hd_base.h"
 #include "fix_hd_bound.h"
-#include "force.h"
 #include "group.h"
 #include "helfrich_measure.h"
 #include "membrane_tessellation.h"
 #include "mesh_box.h"
+#include "mesh_group.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -45,9 +45,6 @@ static constexpr double MOST_CHANGE = 0.1;
 
 // of what neighbor lists allow for
 static constexpr double PART_OF_SKIN = 0.5;
-
-// two fixes have the same temperature if they differ by less than this part of it
-static constexpr double SAME = 1.0e-9;
 
 /* ---------------------------------------------------------------------- */
 
@@ -74,7 +71,7 @@ void FixHDTension::init()
 
 void FixHDTension::setup(int)
 {
-  check_temperatures();
+  check_temperature();
   if (has_points) check_bound_atoms();
   if (has_points) check_measure();
   limit_steps();
@@ -88,11 +85,7 @@ void FixHDTension::check_fixes()
   movers = 0;
   held.clear();
   for (auto &fix : modify->get_fix_list()) {
-    int mine = 0, any;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) mine = 1;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-    if (!any) continue;
+    if (!groups_meet(lmp, groupbit, fix->groupbit)) continue;
     if (fix->rigid_flag || utils::strmatch(fix->style, "^shake") || utils::strmatch(fix->style, "^rattle"))
       error->all(FLERR,
                  "Fix hd/tension stretches the atoms of its group, and fix {} ({}) holds some of them rigid: use groups "
@@ -225,18 +218,10 @@ void FixHDTension::check_measure()
                    any);
 }
 
-void FixHDTension::check_temperatures()
+void FixHDTension::check_temperature()
 {
-  for (auto &fix : modify->get_fix_list()) {
-    const auto *integrator = dynamic_cast<FixHDBase *>(fix);
-    if (!integrator || !(integrator->groupbit & movers)) continue;
-    const double other = integrator->sampled_kT();
-    if (other > 0.0 && std::fabs(other - kT()) > SAME * kT())
-      error->all(FLERR,
-                 "Fix hd/tension has the temperature {:.6g}, and fix {} ({}) samples at {:.6g}: a box has one "
-                 "temperature with what is in it",
-                 temperature, fix->id, fix->style, other / force->boltz);
-  }
+  const std::string wrong = FixHDBase::other_temperature(lmp, this, temperature);
+  if (!wrong.empty()) error->all(FLERR, wrong);
 }
 
 /* ----------------------------------------------------------------------

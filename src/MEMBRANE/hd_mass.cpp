@@ -185,13 +185,9 @@ double HDMass::measured_kT()
 {
   double kT = 0.0;
   for (auto &fix : modify->get_fix_list()) {
-    int dim, mine = 0, any;
+    int dim;
     const auto *measure = static_cast<const HelfrichMeasure *>(fix->extract("measure", dim));
-    if (!measure || !measure->on) continue;
-    for (int i = 0; i < atom->nlocal; ++i)
-      if (atom->mask[i] & measure->groupbit && atom->mask[i] & groupbit) mine = 1;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-    if (any) kT = MAX(kT, measure->kT);
+    if (measure && measure->on && groups_meet(lmp, groupbit, measure->groupbit)) kT = MAX(kT, measure->kT);
   }
   return kT;
 }

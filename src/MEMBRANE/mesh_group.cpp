@@ -29,6 +29,18 @@ static constexpr bigint MOST_FACTORIZED = 15000;
 
 /* ---------------------------------------------------------------------- */
 
+bool LAMMPS_NS::groups_meet(LAMMPS *lmp, int groupbit, int other)
+{
+  const int *mask = lmp->atom->mask;
+  int mine = 0, any;
+  for (int i = 0; i < lmp->atom->nlocal; ++i)
+    if (mask[i] & groupbit && mask[i] & other) mine = 1;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp->world);
+  return any != 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
 MeshGroup::MeshGroup(LAMMPS *lmp, int igroup, std::string user) :
     Pointers(lmp), igroup(igroup), groupbit(group->bitmask[igroup]), user(std::move(user)),
     surface(lmp, this->user), outdated(true), nparts(0), npoints(0)

@@ -22,6 +22,9 @@
 
 namespace LAMMPS_NS {
 
+/// Collective: whether any atom is in both groups, which are given by their bits.
+bool groups_meet(class LAMMPS *, int groupbit, int other);
+
 /** The control points of a LAMMPS group of membranes: checked in init(), shared among ranks as a
     MeshPart, and followed when LAMMPS moves atoms between ranks or replaces them. */
 class MeshGroup : protected Pointers {

@@ -25,6 +25,7 @@
 #include "force.h"
 #include "group.h"
 #include "mesh_box.h"
+#include "mesh_group.h"
 #include "modify.h"
 
 #include <cstring>
@@ -48,15 +49,6 @@ void SurfaceMovers::init()
   find_box_movers();
 }
 
-bool SurfaceMovers::have_in_common(const Fix *fix) const
-{
-  int here = 0, any;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit && atom->mask[i] & fix->groupbit) here = 1;
-  MPI_Allreduce(&here, &any, 1, MPI_INT, MPI_MAX, world);
-  return any != 0;
-}
-
 /* ----------------------------------------------------------------------
    impulses act on momenta of point masses, or on something that never yields
 ------------------------------------------------------------------------- */
@@ -67,7 +59,7 @@ void SurfaceMovers::find_integrators()
   for (auto &fix : modify->get_fix_list()) {
     auto *integrator = dynamic_cast<FixHDBase *>(fix);
     if (!integrator && !fix->time_integrate) continue;
-    if (!have_in_common(fix)) continue;
+    if (!groups_meet(lmp, groupbit, fix->groupbit)) continue;
     if (!integrator) {
       if (strcmp(fix->style, "move") == 0) continue;
       error->all(
@@ -138,11 +130,11 @@ void SurfaceMovers::find_box_movers()
   for (auto &fix : modify->get_fix_by_style("^deform")) {
     const auto *deform = dynamic_cast<FixDeform *>(fix);
     if (!deform || deform->remapflag != Domain::X_REMAP) continue;
-    const bool takes_membranes = have_in_common(fix);
+    const bool takes_membranes = groups_meet(lmp, groupbit, fix->groupbit);
     takes_atoms = takes_atoms || takes_membranes;
   }
   for (auto &fix : modify->get_fix_by_style("^hd/tension"))
-    if (have_in_common(fix)) takes_atoms = true;
+    if (groups_meet(lmp, groupbit, fix->groupbit)) takes_atoms = true;
 }
 
 bool SurfaceMovers::images_move() const

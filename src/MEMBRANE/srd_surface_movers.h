@@ -61,7 +61,6 @@ class SurfaceMovers : protected Pointers {
 
   void find_integrators();
   void find_box_movers();
-  bool have_in_common(const class Fix *) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -198,6 +198,10 @@ for text, script in {
     line = error_of(script + "run 5\n")
     claim(f"error: ... {text} ...", text in line, "" if text in line else line)
 
+RAMP = start(integrator="fix i all hd/langevin 1.0 1.1 1.0 4711\n") + "run 20\n"
+said = [run(script + "run 5\n").count("they need one temperature") for script in (RAMP, start())]
+claim("a temperature that is ramped away from that of lipids is told once", said == [1, 0], said)
+
 # === Bound particles make room for themselves
 
 CROWDED = """

@@ -251,6 +251,8 @@ for text, words, script in (
         ("two fixes for one box", "change box parameter",
          "fix t all hd/tension 5 0.05 1 xy\nfix u all hd/tension 5 0.05 2 xy\nrun 0\n"),
         ("another temperature", "one temperature", LANGEVIN + "fix t all hd/tension 5 0.06 1 xy\nrun 1\n"),
+        ("a ramp away from the temperature", "they need one temperature",
+         LANGEVIN.replace("0.05 0.05", "0.05 0.06") + "fix t all hd/tension 5 0.05 1 xy\nrun 10\n"),
         ("scaled velocities that mean nothing", "use momenta keep",
          LANGEVIN + "fix t all hd/tension 5 0.05 1 xy momenta scale\nrun 0\n"),
         ("a part of a sheet", "partly in its group", "region r block 0 6 0 6 -1 1\ngroup part region r\n"
