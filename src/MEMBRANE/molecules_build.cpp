@@ -291,7 +291,7 @@ void MoleculesBuild::check_paths() const
     for (const std::string &format : formats) {
       const std::string path = path_of(format), folder = platform::path_dirname(path);
       if (!platform::path_is_directory(folder))
-        message = "there is no folder " + folder + " for " + path + ": create it";
+        message = "cannot write " + path + ": there is no folder " + folder + ", create it";
       else if (!overwrite && platform::file_is_readable(path))
         message = "there is a file " + path + " already: choose another name, or overwrite yes";
       if (!message.empty()) break;
