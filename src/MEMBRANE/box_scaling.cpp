@@ -19,8 +19,10 @@
 
 #include "atom.h"
 #include "domain.h"
+#include "mesh_box.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -47,9 +49,11 @@ void BoxScaling::set(const std::array<double, 9> &to)
   domain->set_local_box();
 }
 
-void BoxScaling::begin()
+void BoxScaling::begin(std::vector<Cell> cells_of_atoms)
 {
   box = present();
+  vectors = box_vectors(*domain);
+  cells = std::move(cells_of_atoms);
   const int n = 3 * atom->nlocal;
   positions.assign(n ? atom->x[0] : nullptr, n ? atom->x[0] + n : nullptr);
 }
@@ -73,11 +77,13 @@ void BoxScaling::apply(const std::array<double, 3> &a)
   to[7] *= a[0];
   to[8] *= a[1];
   set(to);
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int k = 0; k < 3; ++k) {
-      const double x = positions[3 * (size_t) i + k];
-      atom->x[i][k] = atom->mask[i] & groupbit ? centre[k] + a[k] * (x - centre[k]) : x;
-    }
+  const Eigen::Matrix3d shrinks = vectors - box_vectors(*domain);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double *x = &positions[3 * (size_t) i];
+    Eigen::Vector3d stays = Eigen::Vector3d::Map(x);
+    if (!cells.empty()) stays += shrinks * Eigen::Map<const Eigen::Vector3i>(cells[i].data()).cast<double>();
+    for (int k = 0; k < 3; ++k) atom->x[i][k] = atom->mask[i] & groupbit ? centre[k] + a[k] * (x[k] - centre[k]) : stays[k];
+  }
 }
 
 void BoxScaling::put_back()

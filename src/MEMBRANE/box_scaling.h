@@ -16,19 +16,25 @@
 
 #include "pointers.h"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 /** The box, with the atoms of a group, stretched about its centre: x -> c + A (x - c), A diagonal. Unwrapped
-    coordinates follow the same map, image flags stay. Triclinic boxes keep the directions of A. */
+    coordinates follow the same map, image flags stay. Others stay where they are. Triclinic boxes keep the
+    directions of A. */
 class BoxScaling : protected Pointers {
  public:
   BoxScaling(class LAMMPS *lmp, int groupbit) : Pointers(lmp), groupbit(groupbit) {}
 
-  /// Remembers the box and the positions of all owned atoms.
-  void begin();
+  /// Which image of the box, in box lengths.
+  using Cell = std::array<int, 3>;
+  /** Remembers the box and the positions of all owned atoms. cells: of each, from where its body begins, so that a
+      body that is not in the group stays in one piece; empty if there are none across a side of the box. */
+  void begin(std::vector<Cell> cells);
   /// Box and atoms of the group, from where begin() found them. Ghost atoms do not follow.
   void apply(const std::array<double, 3> &factors);
   /// Exactly as begin() found them.
@@ -37,7 +43,9 @@ class BoxScaling : protected Pointers {
  private:
   int groupbit;
   std::array<double, 9> box;
+  Eigen::Matrix3d vectors;    // of it
   std::vector<double> positions;
+  std::vector<Cell> cells;
 
   std::array<double, 9> present() const;
   void set(const std::array<double, 9> &);

@@ -295,6 +295,11 @@ void CreateBound::add_atoms(const std::vector<Vector3d> &places)
   MPI_Allreduce(&most, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if ((bigint) last + count >= MAXTAGINT)
     error->all(FLERR, "create_bound: too many atoms for their IDs; build LAMMPS with BIGBIG");
+  for (const Vector3d &place : places)
+    if (const int k = beyond_fixed_side(*domain, place.data()); k >= 0)
+      error->all(FLERR,
+                 "create_bound: an atom at ({:.6g}, {:.6g}, {:.6g}) is outside the box, which is not periodic in {}: enlarge "
+                 "the box", place[0], place[1], place[2], "xyz"[k]);
   for (const Vector3d &place : places) {
     double x[3] = {place[0], place[1], place[2]}, lamda[3];
     imageint image = ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;

@@ -301,20 +301,12 @@ std::string CreateMembrane::turn(TriangleMesh &mesh)
 
 void CreateMembrane::check_inside_box(const TriangleMesh &mesh)
 {
-  const double *lo = domain->triclinic ? domain->boxlo_lamda : domain->boxlo;
-  const double *hi = domain->triclinic ? domain->boxhi_lamda : domain->boxhi;
-  constexpr int FIXED = 1;
-  for (const auto &p : mesh.points) {
-    double s[3] = {p[0], p[1], p[2]};
-    if (domain->triclinic) domain->x2lamda(s, s);
-    for (int k = 0; k < 3; ++k)
-      if ((domain->boundary[k][0] == FIXED && s[k] < lo[k]) ||
-          (domain->boundary[k][1] == FIXED && s[k] > hi[k]))
-        error->all(FLERR,
-                   "create_membrane {}: control point ({:.6g}, {:.6g}, {:.6g}) is outside the box, "
-                   "which is not periodic in {}; enlarge the box or use scale and center",
-                   shape, p[0], p[1], p[2], "xyz"[k]);
-  }
+  for (const auto &p : mesh.points)
+    if (const int k = beyond_fixed_side(*domain, p.data()); k >= 0)
+      error->all(FLERR,
+                 "create_membrane {}: control point ({:.6g}, {:.6g}, {:.6g}) is outside the box, "
+                 "which is not periodic in {}; enlarge the box or use scale and center",
+                 shape, p[0], p[1], p[2], "xyz"[k]);
 }
 
 /* ----------------------------------------------------------------------

@@ -118,6 +118,8 @@ void FixHDBound::init()
                mover->id, mover->style);
   check_group();
   bind_free_atoms();
+  if (rigid && update->nsteps > 0) return_strays();
+  check_inside_box();
   check_integrators();
   correcting = rigid && correct != Correct::NO && bath_kT() > 0.0 && update->whichflag == 1;
   if (rigid && correct == Correct::YES && update->whichflag == 1 && !correcting)

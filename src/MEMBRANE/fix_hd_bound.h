@@ -180,6 +180,8 @@ class FixHDBound : public Fix {
   bool is_near(int, int face) const;
   void bind_free_atoms();
   void bind_given_atoms();
+  void return_strays();
+  void check_inside_box();
   void check_given_sites();
   std::vector<int> components_of_group() const;
   void make_surface();

@@ -26,7 +26,9 @@
 #include "force.h"
 #include "group.h"
 #include "irregular.h"
+#include "membrane_limit_surface.h"
 #include "mesh_box.h"
+#include "mesh_group.h"
 #include "modify.h"
 #include "update.h"
 
@@ -51,13 +53,22 @@ static constexpr double FACES_AWAY = 3.0;
 static constexpr double PHASE_CHOSEN = 0.5;
 static constexpr double PHASE_MOST = 2.0;
 
+// of atoms with a rigid hold, in mean edges: what is closer to its place is there
+static constexpr double STRAY = 1.0e-6;
+
+// a run stops when an atom is FARTHEST off, which should be so many times what its temperature does
+static constexpr double SIGMAS = 6.0;
+
 // === What is checked and chosen before a run
 
 void FixHDBound::check_group()
 {
   tagint mine[2] = {0, 0}, any[2];
   for (int i = 0; i < atom->nlocal; ++i) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit)) {
+      sites.clear(i);    // it may come back from elsewhere
+      continue;
+    }
     if (mesh->vertex(atom->tag[i]) >= 0) mine[0] = MAX(mine[0], atom->tag[i]);
     if (!std::isfinite(atom->x[i][0] + atom->x[i][1] + atom->x[i][2]))
       mine[1] = MAX(mine[1], atom->tag[i]);
@@ -93,6 +104,13 @@ void FixHDBound::check_integrators()
   std::string late;
   for (auto &fix : modify->get_fix_list()) {
     if (fix == this) after = true;
+    const bool holds = fix->rigid_flag || utils::strmatch(fix->style, "^shake") || utils::strmatch(fix->style, "^rattle");
+    if (holds && (rigid || !after) && groups_meet(lmp, groupbit, fix->groupbit)) {
+      if (rigid)
+        error->all(FLERR, "Fix hd/bind hold rigid: fix {} ({}) holds its atoms, too: use hold spring", fix->id, fix->style);
+      error->all(FLERR, "Fix {} ({}) must come after fix {} (hd/bind), whose places and forces it takes: define it later",
+                 fix->id, fix->style, id);
+    }
     if (!fix->time_integrate) continue;
     int mine = 0, any;
     for (int i = 0; i < atom->nlocal; ++i) {
@@ -294,6 +312,49 @@ void FixHDBound::bind_free_atoms()
     utils::logmesg(lmp, "Fix hd/bind {}: {:.0f} atoms bound, moved by {:.3g} at most\n", id, sums[1], sums[0]);
 }
 
+/* ----------------------------------------------------------------------
+   rigid: what commands have moved off its place is taken back. A constraint would do so, too, with a velocity
+------------------------------------------------------------------------- */
+
+void FixHDBound::return_strays()
+{
+  const Membrane_NS::LimitSurfaceOfMesh surface(mesh->topology(), mesh->triangle_mesh());
+  const double edge = limit->mean_edge();
+  double mine[2] = {0.0, 0.0}, most, count;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    BoundSite &site = sites[i];
+    const Vector3d foot = surface.evaluate<1>(site.point).position();
+    Vector3d away = Vector3d::Map(atom->x[i]) - foot;
+    nearest_image(*domain, away.data());
+    const ClosestPoint closest = closest_point(surface, foot + away, site.point, precision);
+    const double off = height * site.leaflet - closest.distance;
+    if (std::fabs(off) < STRAY * edge) continue;
+    if (std::fabs(off) > FARTHEST * edge)
+      error->one(FLERR, "Fix hd/bind: atom {} is {:.4g} from where it is bound, more than half an edge: place it closer",
+                 atom->tag[i], std::fabs(off));
+    remember(i, closest);
+    Vector3d::Map(atom->x[i]) += off * closest.normal;
+    site.distance += off;
+    mine[0] = MAX(mine[0], std::fabs(off));
+    mine[1] += 1.0;
+  }
+  MPI_Allreduce(&mine[0], &most, 1, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(&mine[1], &count, 1, MPI_DOUBLE, MPI_SUM, world);
+  if (comm->me == 0 && count > 0.0)
+    utils::logmesg(lmp, "Fix hd/bind {}: {:.0f} atoms taken back to the membrane, by {:.3g} at most\n", id, count, most);
+}
+
+// walls let nothing through, and what is beyond one would be lost
+
+void FixHDBound::check_inside_box()
+{
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (const int k = atom->mask[i] & groupbit ? beyond_fixed_side(*domain, atom->x[i]) : -1; k >= 0)
+      error->one(FLERR, "Fix hd/bind: the place of atom {} is outside the box, which is not periodic in {}: enlarge the box",
+                 atom->tag[i], "xyz"[k]);
+}
+
 void FixHDBound::remember(int i, const ClosestPoint &closest)
 {
   BoundSite &site = sites[i];
@@ -330,4 +391,15 @@ void FixHDBound::choose_spring()
     error->all(FLERR,
                "Fix hd/bind spring {:.6g} is unstable with the timestep {}: at most {:.4g}, or say auto",
                spring, dt, stiffest(inert, damped));
+
+  // PHASE_CHOSEN is the phase of a spring this stiff in a step this long
+
+  const double kT = mover ? mover->sampled_kT() : 0.0, width = FARTHEST * limit->mean_edge() / SIGMAS;
+  const double enough = kT / (width * width);
+  if (spring < enough && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix hd/bind spring {:.4g}: the temperature takes atoms {:.2g} edges off their places in the mean, and a "
+                   "run stops at {}: {:.4g} would do, with a timestep of {:.3g} at most",
+                   spring, std::sqrt(kT / spring) / limit->mean_edge(), FARTHEST, enough,
+                   MIN(dt, MIN(dt * PHASE_CHOSEN / std::sqrt(enough * inert), dt * PHASE_CHOSEN / (enough * damped))));
 }

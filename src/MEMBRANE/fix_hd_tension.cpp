@@ -161,11 +161,9 @@ void FixHDTension::check_words()
     error->all(FLERR, "Fix hd/tension: pressure does nothing with volume keep, leave one of them out");
   for (int k = 0; k < 3; ++k) {
     if (times[k] == 0 && !(keep_volume && k == compensating)) continue;
-    if (!domain->periodicity[k])
-      error->all(FLERR, "Fix hd/tension: the box is not periodic in {}, so it cannot move there; use boundary p",
-                 "xyz"[k]);
     box_change |= k == 0 ? BOX_CHANGE_X : k == 1 ? BOX_CHANGE_Y : BOX_CHANGE_Z;
   }
+  check_periodic();
   if (trials < 1) error->all(FLERR, "Fix hd/tension attempts {} must be 1 or more, or accepted", trials);
   if (burn < 0) error->all(FLERR, "Fix hd/tension burn {} must not be negative", burn);
   if (!(wanted > 0.0 && wanted < 1.0))
@@ -219,6 +217,55 @@ std::array<double, 3> FixHDTension::factors(const Freedom &freedom, double chang
 }
 
 /* ----------------------------------------------------------------------
+   of membranes that are not in the group, and of atoms that are bound to them. Image flags of a closed membrane
+   agree with its edges, those of bound atoms need not; a membrane begins where these are least
+------------------------------------------------------------------------- */
+
+std::vector<BoxScaling::Cell> FixHDTension::cells_outside() const
+{
+  if (!has_points || std::count(goes_along.begin(), goes_along.end(), 0) == 0) return {};
+  const auto &topology = (*mesh)->topology();
+  const int n = 3 * topology.num_vertices();
+  std::vector<int> my_image(n, 0), image(n);
+  std::vector<double> my_place(n, 0.0), place(n);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int v = (*mesh)->vertex(atom->tag[i]);
+    if (v < 0) continue;
+    const imageint flags = atom->image[i];
+    const imageint its[3] = {flags & IMGMASK, flags >> IMGBITS & IMGMASK, flags >> IMG2BITS};
+    for (int k = 0; k < 3; ++k) {
+      my_image[3 * v + k] = static_cast<int>(its[k] - IMGMAX);
+      my_place[3 * v + k] = atom->x[i][k];
+    }
+  }
+  MPI_Allreduce(my_image.data(), image.data(), n, MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(my_place.data(), place.data(), n, MPI_DOUBLE, MPI_SUM, world);
+  std::vector<BoxScaling::Cell> least(topology.num_components(), {IMGMAX, IMGMAX, IMGMAX}), cells(atom->nlocal, {0, 0, 0});
+  for (int v = 0; v < topology.num_vertices(); ++v)
+    for (int k = 0; k < 3; ++k) {
+      int &first = least[topology.component(v)][k];
+      first = MIN(first, image[3 * v + k]);
+    }
+  const auto cell = [&](int v, int k) { return image[3 * v + k] - least[topology.component(v)][k]; };
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (const int v = (*mesh)->vertex(atom->tag[i]); v >= 0)
+      for (int k = 0; k < 3; ++k) cells[i][k] = cell(v, k);
+  for (auto &fix : modify->get_fix_list()) {
+    const auto *bound = dynamic_cast<FixHDBound *>(fix);
+    for (int i = 0; i < atom->nlocal && bound; ++i) {
+      if (!(atom->mask[i] & bound->groupbit) || !bound->site(i).bound()) continue;
+      const int v = (*mesh)->vertex(bound->site(i).corner[0]);
+      if (v < 0) continue;
+      double d[3];
+      for (int k = 0; k < 3; ++k) d[k] = place[3 * v + k] - atom->x[i][k];
+      const auto moved = nearest_image(*domain, d);
+      for (int k = 0; k < 3; ++k) cells[i][k] = cell(v, k) - moved[k];
+    }
+  }
+  return cells;
+}
+
+/* ----------------------------------------------------------------------
    Metropolis. The logarithm of X, a length, area or volume of the box, moves by u; X is sampled uniformly but
    for the weight, hence exp(u). Positions in the box hold, hence what volumes of coordinates do; and momenta
    or velocities.
@@ -235,7 +282,7 @@ bool FixHDTension::attempt()
   double exponent = u;
   for (FixHDBound *fix : held) exponent -= fix->log_areas();
   if (has_points) check_edges(a);
-  scaling.begin();
+  scaling.begin(cells_outside());
   scaling.apply(a);
   if (!held.empty()) {
     comm->forward_comm();

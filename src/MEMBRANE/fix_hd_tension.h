@@ -95,7 +95,9 @@ class FixHDTension : public Fix {
   void check_words();
 
   // before a run
+  void check_periodic();
   void check_fixes();
+  void check_outsiders();
   void check_membranes();
   void check_bound_atoms();
   void check_measure();
@@ -104,6 +106,7 @@ class FixHDTension : public Fix {
 
   // moves
   bool attempt();
+  std::vector<BoxScaling::Cell> cells_outside() const;
   std::array<double, 3> factors(const Freedom &, double change) const;
   void check_box();
   void check_edges(const std::array<double, 3> &);

@@ -53,6 +53,7 @@ void FixHDTension::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix hd/tension does not work with run_style respa");
   trial.init();
+  check_periodic();
   check_fixes();
   has_points = false;
   plane = {0, 1};
@@ -72,6 +73,7 @@ void FixHDTension::init()
 void FixHDTension::setup(int)
 {
   check_temperature();
+  check_outsiders();
   if (has_points) check_bound_atoms();
   if (has_points) check_measure();
   limit_steps();
@@ -79,6 +81,14 @@ void FixHDTension::setup(int)
 }
 
 /* ---------------------------------------------------------------------- */
+
+void FixHDTension::check_periodic()
+{
+  static constexpr int CHANGES[] = {BOX_CHANGE_X, BOX_CHANGE_Y, BOX_CHANGE_Z};
+  for (int k = 0; k < 3; ++k)
+    if (box_change & CHANGES[k] && !domain->periodicity[k])
+      error->all(FLERR, "Fix hd/tension: the box is not periodic in {}, so it cannot move there; use boundary p", "xyz"[k]);
+}
 
 void FixHDTension::check_fixes()
 {
@@ -170,6 +180,29 @@ void FixHDTension::check_membranes()
                "xyz"[plane[1]]);
 }
 
+/* ----------------------------------------------------------------------
+   particles that the box passes over push nothing. A membrane with what is bound to it is one body of many
+------------------------------------------------------------------------- */
+
+void FixHDTension::check_outsiders()
+{
+  int moving = 0, bound = 0;
+  for (auto &fix : modify->get_fix_list()) {
+    if (fix->time_integrate) moving |= fix->groupbit;
+    if (dynamic_cast<FixHDBound *>(fix)) bound |= fix->groupbit;
+  }
+  bigint mine = 0, all;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int mask = atom->mask[i];
+    if (mask & groupbit || mask & bound || !(mask & moving)) continue;
+    if (!has_points || (*mesh)->vertex(atom->tag[i]) < 0) ++mine;
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all && comm->me == 0)
+    error->warning(FLERR, "Fix hd/tension: {} particles that move are not in its group {}: the box passes over them, and "
+                          "feels no pressure of theirs as a gas", all, group->names[igroup]);
+}
+
 // what is held on a membrane goes where it goes
 
 void FixHDTension::check_bound_atoms()
@@ -226,7 +259,7 @@ void FixHDTension::check_temperature()
 
 /* ----------------------------------------------------------------------
    Lists are new at each visit. They hold pairs up to the skin beyond the cutoff; those that come within it by
-   a move must be among them
+   all moves of a visit must be among them
 ------------------------------------------------------------------------- */
 
 void FixHDTension::limit_steps()
@@ -236,7 +269,7 @@ void FixHDTension::limit_steps()
   next_reneighbor = lists ? next_visit() : -1;
   force_reneighbor = lists;
   if (lists && neighbor->cutneighmax > 0.0)
-    longest_step = MIN(longest_step, PART_OF_SKIN * neighbor->skin / neighbor->cutneighmax);
+    longest_step = MIN(longest_step, PART_OF_SKIN * neighbor->skin / neighbor->cutneighmax / (until_accepted ? 1 : trials));
   for (Freedom &freedom : freedoms) {
     if (freedom.step <= longest_step) continue;
     if (comm->me == 0)

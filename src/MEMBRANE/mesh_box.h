@@ -60,6 +60,19 @@ inline std::array<int, 3> nearest_image(const Domain &domain, double *d)
   return moved;
 }
 
+/// The direction in which x is beyond a side of the box that neither is periodic nor moves; -1: it is inside.
+inline int beyond_fixed_side(const Domain &domain, const double *x)
+{
+  constexpr int FIXED = 1;
+  constexpr double ROUNDING = 1.0e-12;
+  const double d[3] = {x[0] - domain.boxlo[0], x[1] - domain.boxlo[1], x[2] - domain.boxlo[2]};
+  const auto s = in_box_lengths(domain, d);
+  for (int k = 0; k < 3; ++k)
+    if ((domain.boundary[k][0] == FIXED && s[k] < -ROUNDING) || (domain.boundary[k][1] == FIXED && s[k] > 1.0 + ROUNDING))
+      return k;
+  return -1;
+}
+
 /// A difference with a smaller square is its nearest image, also after box edges have shrunk by a tenth.
 inline double surely_nearest_square(const Domain &domain)
 {

@@ -214,6 +214,9 @@ int DistributedMesh::local_neighbor(int i, int neighbor, int face)
 {
   const int j = find_neighbor(i, neighbor);
   if (j >= 0) return j;
+  if (lmp->update->whichflag == 0)
+    error->one(FLERR, "Control point {}: {} needs control point {}, which is not at hand between runs: use run 0 after "
+                      "commands that make or delete atoms", atom->tag[i], face_name(face), tags[neighbor]);
   error->one(FLERR,
              "Control point {}: {} needs control point {}, which is beyond the communication cutoff "
              "{:.6g}; raise it with comm_modify cutoff, or if the mesh of a fluid membrane has lost its "

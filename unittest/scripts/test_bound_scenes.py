@@ -3,6 +3,7 @@ between two runs, r-RESPA, minimization, deforming boxes; and every wrong input.
 # cost: 30
 
 import math
+import re
 
 from lammps_claims import claim, finish, lammps, run, thermo
 from membrane_scenes import frames
@@ -188,6 +189,41 @@ for hold in ("spring auto", "rigid"):
         temperature = sum(row["c_T"] for row in rows) / len(rows)
         claim("    two directions of motion count in the temperature", abs(temperature - 1.5) < 0.03, f"{temperature:.3f}")
 
+# === Rigid holds begin a run where they hold, whatever commands have done
+
+calm, rows = (thermo(run(sheet(hold="rigid") + "run 5\n" + move + "run 5\n")) for move in ("", "displace_atoms p move 0.02 0.01 0.15\n"))
+off = max(abs(a["TotEng"] - b["TotEng"]) for a, b in zip(calm, rows))
+claim("atoms that have been displaced are taken back, and not thrown", off < 0.02 and max(row["f_b[4]"] for row in rows) < 1e-9,
+      f"{off:.4f}")
+
+# === Springs for the timestep of mass sampling
+
+SOFT = """
+units           lj
+atom_style      membrane_cp
+region          box block 0 12 0 12.124355652982141 -6 6
+create_box      3 box angle/types 1
+create_membrane 1 plane 12 14 mass 0.8660254037844386
+group           mem type 1
+pair_style      hybrid/overlay helfrich zero 1.0
+pair_coeff      1 1 helfrich 1.0 0.0 regularize 1.0 conformal
+pair_coeff      * * zero
+create_bound    10 2 mem 4711
+group           pro type 2
+fix             1 mem hd/langevin 0.05 0.05 1.5 4711 mass sampling
+fix             2 pro nve
+fix             4 pro langevin 0.05 0.05 1.5 99
+fix             3 pro hd/bind mem
+timestep        {dt}
+thermo_style    custom step f_3[3] f_3[4]
+run             {n}
+"""
+said = re.search(r"WARNING: Fix hd/bind spring \S+ the temperature takes .* with a timestep of (\S+) at most", run(SOFT.format(dt=0.3, n=0)))
+claim("a spring too soft for its temperature is told when a run begins", said is not None)
+output = run(SOFT.format(dt=said[1], n=2000))
+row = thermo(output)[-1]
+claim("    the timestep in the warning does", "the temperature takes" not in output and row["f_3[4]"] < 0.45, (said[1], row))
+
 # === Wrong input: one line, the thing and the cure
 
 
@@ -220,6 +256,11 @@ fails(PLAIN + "fix b p hd/bind outer\nfix 3 p nve\nrun 10\n", "more than one fix
 fails(PLAIN.replace("fix 2 p nve\n", "") + "fix b p hd/bind outer hold rigid\nfix 2 p nve\nrun 10\n", "must come after fix 2")
 fails(NESTED.format(particles="create_bound 10 2 outer 5") + "fix 2 p nve\nfix b p hd/bind outer hold rigid\nfix 1 mem hd/nve\nrun 10\n",
       "must come after fix 1")
+BODY = PLAIN.replace("fix 2 p nve\n", "")
+fails(BODY + "fix 2 p rigid single\nfix b p hd/bind outer\nrun 1\n", "must come after fix b", "define it later")
+fails(BODY + "fix b p hd/bind outer hold rigid\nfix 2 p rigid single\nrun 1\n", "holds its atoms, too", "hold spring")
+fails(NESTED.format(particles="change_box all boundary f f f\nchange_box all x final -3.3 3.3\ncreate_bound 90 2 outer 5 height 0.4"),
+      "outside the box", "enlarge")
 fails(PLAIN + "fix b p hd/bind outer hold spring 1e8\nrun 10\n", "unstable", "at most")
 fails(PLAIN + "fix b p hd/bind outer footprint 2 0 1 1 1\nrun 0\n", "area 0", "positive")
 fails(PLAIN + "fix b p hd/bind outer footprint 2 1e4 1 1 1\nrun 0\n", "larger than")

@@ -5,6 +5,8 @@
 # cost: 15
 # timeout: 7200
 
+import re
+
 from lammps_claims import LONG, claim, error_of, finish, lammps, run, thermo
 
 BOX = "block 0 12 0 12.124355652982141 -6 6"
@@ -229,6 +231,81 @@ claim("a vesicle that is not in the group keeps its size while the box of a gas 
       max(abs(row["c_s[2]"] / rows[0]["c_s[2]"] - 1) for row in rows) < 0.05 and abs(rows[-1]["Volume"] / 1000 - 1) > 0.02
       and rows[-1]["f_t[2]"] > 0.2, f"volume {rows[-1]['Volume']:.0f}, acceptance {rows[-1]['f_t[2]']:.2f}")
 
+# In the corner of a box that stretches around them, a vesicle and the atoms that are bound to it stay as they are
+
+CORNER = """
+units           lj
+atom_style      membrane_cp
+region          box {box}
+create_box      3 box angle/types 1
+create_membrane 1 sphere 2 2.0 center 5 5 5
+create_atoms    2 random 40 8341 box
+group           mem type 1
+group           gas type 2
+create_bound    40 3 mem 4711
+group           pro type 3
+special_bonds   lj/coul 1 1 1
+pair_style      hybrid/overlay helfrich zero 1.0
+pair_coeff      1 1 helfrich 20.0 0.0
+pair_coeff      * * zero
+fix             1 gas nve
+velocity        gas create 1.0 4711
+fix             b pro hd/bind mem hold spring 100
+fix             t gas hd/tension 2 1.0 4711 x y z pressure 0.04
+compute         s mem membrane/shape
+thermo_style    custom step pe c_s[1] c_s[2] f_b[2] f_b[4] f_t[2] vol
+thermo_modify   norm no format float %.15g
+thermo          100
+timestep        0.005
+run             400
+"""
+for name, box, ranks in (("", "block -5 5 -5 5 -5 5", 1), (", two ranks", "block -5 5 -5 5 -5 5", 2),
+                         (", triclinic", "prism -5 5 -5 5 -5 5 1.5 -0.8 0.6", 1)):
+    output = run(CORNER.format(box=box), ranks=ranks)
+    rows = thermo(output)
+    worst = max(abs(row[k] / rows[0][k] - 1) for row in rows for k in ("PotEng", "c_s[1]", "c_s[2]"))
+    claim(f"a vesicle across the sides of a box that passes over it stays whole{name}", worst < 1e-9, f"{worst:.1e}")
+    claim("  and what is bound to it stays on it", max(row["f_b[4]"] for row in rows) < 1e-6 and rows[-1]["f_b[2]"] == 40,
+          max(row["f_b[4]"] for row in rows))
+    claim("  while the box changes", abs(rows[-1]["Volume"] / 1000 - 1) > 0.02, rows[-1]["Volume"])
+claim("no warning where all particles that move are in the group", "push" not in output and "as a gas" not in output)
+output = run(CORNER.format(box="block -5 5 -5 5 -5 5").replace("fix             t gas", "group some id 191:202\nfix t some")
+             .replace("run             400", "run 0"))
+claim("a warning counts particles outside the group that move", "Fix hd/tension: 28 particles that move are not in its group some" in output,
+      re.findall(r"\d+ particles that move", output))
+
+# === All attempts of a visit together stay within the skin
+
+LISTS = """
+units           lj
+atom_style      atomic
+region          box block 0 9 0 9 0 9
+create_box      1 box
+create_atoms    1 random 100 8341 box overlap 0.95 maxtry 5000
+mass            * 1
+pair_style      lj/cut 2.5
+pair_coeff      * * 1.0 1.0
+fix             1 all nve
+fix             2 all langevin 1.5 1.5 1.0 4711
+velocity        all create 1.5 4711
+fix             t all hd/tension 5 1.5 99 x pressure 0.2 step 0.05 attempts 20
+timestep        0.004
+thermo_style    custom step pe
+thermo_modify   norm no format float %.12g
+thermo          5
+dump            d all custom 5 lists.dump id type x y z
+dump_modify     d format float %.17g
+run             1500
+unfix           t
+undump          d
+rerun           lists.dump first 5 dump x y z box yes
+"""
+rows = thermo(run(LISTS))
+moved, again = rows[1:301], rows[301:]
+worst = max(abs(a["PotEng"] - b["PotEng"]) for a, b in zip(moved, again))
+claim("energies after many attempts are those with new neighbor lists", len(moved) == len(again) == 300 and
+      all(a["Step"] == b["Step"] for a, b in zip(moved, again)) and worst < 1e-6, f"{worst:.1e}")
+
 # === Bad input
 
 def says(text, words, script):
@@ -262,6 +339,8 @@ for text, words, script in (
         ("bound atoms that stay behind their membrane", "would tear it off",
          "create_bound 9 2 mem 31 mass 1.0\ngroup p type 2\nfix 2 p nve\nfix b p hd/bind mem\n"
          "fix t mem hd/tension 5 0.05 1 xy\nrun 0\n"),
+        ("a box that has got walls", "not periodic in z", LANGEVIN +
+         "fix t all hd/tension 5 0.05 1 xyz\nrun 1\nchange_box all boundary p p f\nrun 1\n"),
         ("run_style respa", "respa", LANGEVIN.replace("langevin 0.05 0.05 1.5 4711 mass sampling", "nve") +
          "fix t all hd/tension 5 0.05 1 xy\nrun_style respa 2 2\nrun 0\n"),
         ("fix npt on control points", "use fix hd/langevin and fix hd/tension",
