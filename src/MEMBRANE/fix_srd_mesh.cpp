@@ -123,10 +123,12 @@ void FixSRDMesh::init_membranes()
   influences.check_box_movers(solvent, membrane);
   mass->init();
   obstacle->init();
+  if (update->whichflag == 2 && comm->me == 0)    // which has no solvent
+    error->warning(FLERR, "Fix srd/mesh: in a minimization membranes may pass over solvent, which is on their other side "
+                          "then: minimize before there is solvent");
   if (stiffness > 0.0 && comm->me == 0)
-    utils::logmesg(lmp,
-                   "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where "
-                   "pair_coeff has none\n", stiffness, STIFF_MESH);
+    utils::logmesg(lmp, "Fix srd/mesh: meshes are kept in shape with regularize {:.6g} ({} kT) where pair_coeff has none\n",
+                   stiffness, STIFF_MESH);
 }
 
 /* ----------------------------------------------------------------------
@@ -162,11 +164,8 @@ void FixSRDMesh::check_other_solvents()
       if ((atom->mask[i] & both) == both) mine = 1;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
     if (any)
-      error->all(
-          FLERR,
-          "Fix srd/mesh: membranes of group {} are also those of fix {}: one fix must have all "
-          "solvent around a membrane",
-          group->names[membrane], other->id);
+      error->all(FLERR, "Fix srd/mesh: membranes of group {} are also those of fix {}: one fix must have all solvent "
+                        "around a membrane", group->names[membrane], other->id);
   }
 }
 
@@ -195,7 +194,7 @@ void FixSRDMesh::setup_pre_neighbor()
 void FixSRDMesh::setup_pre_force(int)
 {
   zero_forces();
-  if (update->whichflag == 2) return;    // a minimization has no solvent
+  if (update->whichflag == 2) return;
   if (!velocities_set && given.set_velocities) solvent.draw_velocities(given.seed, steps, fluid.kT());
   velocities_set = true;
 }

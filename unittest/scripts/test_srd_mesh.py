@@ -438,6 +438,7 @@ minimize        1e-6 0 50 200
 run             50
 """)
 rows = thermo(output)
+claim("a minimization warns that membranes pass over solvent", output.count("may pass over solvent") == 1)
 claim("a minimization after a run leaves the counters alone, and a run after it loses nothing",
       rows[-1]["f_2[3]"] == 0 and rows[-1]["f_2[2]"] > 100 and rows[-1]["f_2[8]"] > 0, f"{rows[-1]['f_2[2]']:.0f} collisions")
 
