@@ -39,12 +39,15 @@ using Membrane_NS::Face;
 using Membrane_NS::MeshError;
 using Membrane_NS::TriangleMesh;
 
+// boxes, half of what image flags can count
+static constexpr int FARTHEST = IMGMAX / 2;
+
 /* ---------------------------------------------------------------------- */
 
 CreateMembrane::CreateMembrane(LAMMPS *lmp) :
     Command(lmp), type(0), angle_type(1), refine(0), molecule(0), first_molecule(0),
     last_molecule(0), mass(1.0), interpolated(false),
-    flip(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true)
+    flip(false), centre{0.0, 0.0, 0.0}, scale{1.0, 1.0, 1.0}, centred(true), axis(-1)
 {
 }
 
@@ -145,12 +148,12 @@ int CreateMembrane::parse_shape(int narg, char **arg, TriangleMesh &mesh)
   } else if (shape == "cylinder") {
     need(4);
     used = 5;
-    const std::string axis = arg[4];
-    const int which = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : -1;
-    if (which < 0) error->all(FLERR, "create_membrane cylinder axis {} is not x, y or z", axis);
-    if (!periodic[which])
-      error->all(FLERR, "create_membrane cylinder needs a box that is periodic in {}", axis);
-    mesh = Membrane_NS::tube(integer(1), integer(2), number(3), lattice, which);
+    const std::string name = arg[4];
+    axis = name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : -1;
+    if (axis < 0) error->all(FLERR, "create_membrane cylinder axis {} is not x, y or z", name);
+    if (!periodic[axis])
+      error->all(FLERR, "create_membrane cylinder needs a box that is periodic in {}", name);
+    mesh = Membrane_NS::tube(integer(1), integer(2), number(3), lattice, axis);
   } else if (shape == "torus") {
     need(4);
     mesh = Membrane_NS::torus(integer(1), integer(2), number(3), number(4));
@@ -301,6 +304,13 @@ std::string CreateMembrane::turn(TriangleMesh &mesh)
 
 void CreateMembrane::check_inside_box(const TriangleMesh &mesh)
 {
+  for (const auto &p : mesh.points) {
+    const auto s = in_box_lengths(*domain, p.data());
+    for (int k = 0; k < 3; ++k)
+      if (domain->periodicity[k] && !(std::fabs(s[k]) < FARTHEST))
+        error->all(FLERR, "create_membrane {}: control point ({:.6g}, {:.6g}, {:.6g}) is more than {} boxes away in {}; use "
+                          "scale and center", shape, p[0], p[1], p[2], FARTHEST, "xyz"[k]);
+  }
   for (const auto &p : mesh.points)
     if (const int k = beyond_fixed_side(*domain, p.data()); k >= 0)
       error->all(FLERR,
@@ -315,13 +325,13 @@ void CreateMembrane::check_inside_box(const TriangleMesh &mesh)
 
 void CreateMembrane::check_edges(const TriangleMesh &mesh)
 {
-  if (shape != "sphere" && shape != "torus") return;
+  if (shape != "sphere" && shape != "torus" && shape != "cylinder") return;
   const Eigen::Matrix3d inverse = mesh.lattice.inverse();
   for (const Face &face : mesh.faces)
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d s = inverse * (mesh.points[face[(i + 1) % 3]] - mesh.points[face[i]]);
       for (int k = 0; k < 3; ++k)
-        if (domain->periodicity[k] && std::fabs(s[k]) > 0.45)
+        if (domain->periodicity[k] && k != axis && std::fabs(s[k]) > 0.45)
           error->all(FLERR,
                      "create_membrane {}: an edge spans half the periodic box in {}; use a larger "
                      "box or a finer mesh",

@@ -41,6 +41,7 @@ class CreateMembrane : public Command {
   bool interpolated, flip;
   double centre[3], scale[3];
   bool centred;    // whether the shape is to be moved to `centre`
+  int axis;        // along which it continues through the box, of a cylinder; -1: none
   std::string shape;
   std::string path;      // of a mesh file
   std::string report;    // on the first rank: what the file had

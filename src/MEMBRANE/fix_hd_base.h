@@ -113,6 +113,8 @@ class FixHDBase : public Fix {
   /** Collective, once a step: whether mass sampling is another than in the last step, since the shape has left
       its reference, or at first, so that velocities of before are worth nothing. relax() does so itself. */
   bool renew();
+  /// With mass sampling, before the first step: velocities are those of another mass.
+  bool has_foreign_velocities() const { return sampling() && drawn_for < 0; }
   /** With mass sampling: a step that would tear the mesh is taken back. Call before the step moves anything, and after.
       Whether it was: then points are where they were, and velocities such that after the last half kick of the step
       they are the opposite of those before it, if half_kick is that kick's time. Stops if that happens often. */

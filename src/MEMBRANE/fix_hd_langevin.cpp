@@ -23,6 +23,7 @@
 #include "force.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -139,6 +140,7 @@ void FixHDLangevin::reset_dt()
 void FixHDLangevin::initial_integrate(int)
 {
   set_measure();
+  if (has_foreign_velocities()) stop_points();
   hold_on();
   const double bath = energy;
   kick_and_drift(0.5 * dt, 0.5 * dt);
@@ -195,6 +197,15 @@ void FixHDLangevin::thermalize()
   } else
     relax(std::exp(-dt / damp), kT_mass);
   if (tally) energy += before - kinetic();
+}
+
+// so that the first motion is that of velocities of its own
+
+void FixHDLangevin::stop_points()
+{
+  if (tally) energy += kinetic();
+  const MeshPart &part = mass.part();
+  for (int i = 0; i < part.owned; ++i) std::fill_n(atom->v[part.atom_of(i)], 3, 0.0);
 }
 
 double FixHDLangevin::kinetic()

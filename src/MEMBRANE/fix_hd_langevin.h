@@ -55,6 +55,7 @@ class FixHDLangevin : public FixHDBase {
   double kT() const;
   void set_measure();
   void thermalize();
+  void stop_points();
   double kinetic();
 };
 

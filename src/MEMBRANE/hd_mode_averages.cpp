@@ -55,6 +55,11 @@ int ModeSampling::parse(LAMMPS *lmp, const std::string &user, int iarg, int narg
 
 void ModeSampling::check(LAMMPS *lmp, const std::string &user) const
 {
+  if (every > 0 && !file.empty() && lmp->comm->me == 0) {
+    FILE *out = fopen(file.c_str(), "a");
+    if (!out) lmp->error->one(FLERR, "{}: cannot open file {}: {}", user, file, utils::getsyserror());
+    fclose(out);
+  }
   if (every > 0 || (kT == 0.0 && file.empty())) return;
   lmp->error->all(FLERR, "{} {} is of averages: use average N", user, file.empty() ? "theory" : "file");
 }

@@ -239,8 +239,8 @@ void HDModes::write(HDMass &mass, NormalMotion &motion, const Eigenpairs &modes,
     error->warning(FLERR, "hd_modes: {} of the modes grow by themselves: this is no minimum of the energy, minimize before",
                    unstable);
   if (soft && comm->me == 0)
-    error->warning(FLERR, "hd_modes: nothing restores {} of the modes; keyword rigid leaves out translations and turns",
-                   soft);
+    error->warning(FLERR, "hd_modes: nothing restores {} of the modes; {}", soft,
+                   rigid ? "rigid no leaves out translations and turns" : "give area or volume, or what else holds the shape");
   if (open && comm->me == 0)
     error->warning(FLERR, "hd_modes: {} of the modes have residuals above {} after {} passes", open, tolerance, MOST_PASSES);
 

@@ -59,6 +59,9 @@ static constexpr int TRIAL_TIME = 12;
 // nobody should go further, whatever the error
 static constexpr double MOST_OF_LIMIT = 0.5;
 
+// wavelengths that differ by less than this part are the same
+static constexpr double SAME = 1.0e-3;
+
 // motion of a membrane at rest: this part of an edge in the time of the limit
 static constexpr double STIR = 1.0e-3;
 static constexpr uint64_t SEED = 4711;
@@ -117,9 +120,12 @@ void HDTimestep::command(int narg, char **arg)
 
   double period = 0.0;
   if (degree || wavelength > 0.0) {
-    const double value = probe.quotient(mode_shape(mass));
+    double fits = 0.0;
+    const double value = probe.quotient(mode_shape(mass, fits));
     const std::string name = degree ? fmt::format("period of degree {}", degree)
-                                    : fmt::format("period of wavelength {:.4g}", wavelength);
+                                    : fmt::format("period of wavelength {:.4g}", fits);
+    if (!degree && std::fabs(fits / wavelength - 1.0) > SAME)
+      print(fmt::format("  (of the waves in this box the one of {:.4g} is nearest to {:.4g})\n", fits, wavelength));
     if (value > 0.0) period = overdamped ? 1.0 / value : MY_2PI / std::sqrt(value);
     if (value > 0.0)
       print(fmt::format("  {:<36}{:.6g}\n", overdamped ? "relaxation time" + name.substr(6) : name,
@@ -259,7 +265,7 @@ static double legendre(int degree, double x)
   return p;
 }
 
-VertexField HDTimestep::mode_shape(HDMass &mass) const
+VertexField HDTimestep::mode_shape(HDMass &mass, double &fits) const
 {
   const DistributedMesh &mesh = mass.mesh();
   const auto &topology = mesh.topology();
@@ -289,6 +295,7 @@ VertexField HDTimestep::mode_shape(HDMass &mass) const
         const double off = std::fabs(std::log(length / n / wavelength));
         if (off > best) continue;
         best = off;
+        fits = length / n;
         wave[c] = MY_2PI * n * inverse.row(k);
       }
     }

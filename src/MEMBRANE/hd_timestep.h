@@ -45,7 +45,8 @@ class HDTimestep : public Command {
   };
 
   void parse(int, char **, class HDMass &, int groupbit);
-  Membrane_NS::VertexField mode_shape(HDMass &) const;
+  /// fits: the wavelength that it has, if it is a wave.
+  Membrane_NS::VertexField mode_shape(HDMass &, double &fits) const;
   bool start_moving(HDMass &, double limit) const;
   double energy_error(HDMass &, class StiffnessProbe &, double dt, int nsteps) const;
   bool has_other_atoms(HDMass &) const;

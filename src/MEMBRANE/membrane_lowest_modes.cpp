@@ -31,7 +31,7 @@ using Eigen::VectorXd;
 // a direction that others have but for this part of its square is none of its own
 static constexpr double DEPENDENT = 1.0e-10;
 
-// a turn that moves a surface along its normals by less than this part of translations does not move it
+// a translation or turn that moves a surface along its normals by less than this part of what one can does not move it
 static constexpr double STILL = 1.0e-3;
 
 namespace {
@@ -197,17 +197,19 @@ NormalMotion::NormalMotion(const TriangleMesh &mesh, const std::array<bool, 3> &
       turns(v, k) = open == 0 ? turn[k] : open == 1 && continues[k] ? turn.dot(mesh.lattice.col(k).normalized()) : 0.0;
   }
 
-  // of turns those that are no symmetry of the shape
+  // those that are no symmetry of the shape: a sheet or tube that goes along itself through the box does not move
 
+  rigid_.resize(n, 0);
   turns /= std::sqrt(areas_.sum());
-  const MatrixXd weighted = areas_.asDiagonal() * turns;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(turns.transpose() * weighted);
-  rigid_ = moves;
-  for (int k = 0; k < 3; ++k)
-    if (eigen.eigenvalues()[k] > STILL * areas_.sum()) {
-      rigid_.conservativeResize(Eigen::NoChange, rigid_.cols() + 1);
-      rigid_.rightCols(1) = turns * eigen.eigenvectors().col(k);
-    }
+  for (const MatrixXd *motions : {&moves, &turns}) {
+    const MatrixXd weighted = areas_.asDiagonal() * *motions;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(motions->transpose() * weighted);
+    for (int k = 0; k < 3; ++k)
+      if (eigen.eigenvalues()[k] > STILL * areas_.sum()) {
+        rigid_.conservativeResize(Eigen::NoChange, rigid_.cols() + 1);
+        rigid_.rightCols(1) = *motions * eigen.eigenvectors().col(k);
+      }
+  }
 }
 
 VertexField NormalMotion::displacement(const VectorXd &phi)

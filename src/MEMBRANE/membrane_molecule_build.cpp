@@ -50,14 +50,16 @@ template <class... Args> std::string text(const char *format, Args... args)
 void check_curvature(const ParallelSurfaces &part, const LeafletPatches &patches)
 {
   for (int leaflet = 0; leaflet < LEAFLETS; ++leaflet) {
-    const double height = sign_of(leaflet) * patches[leaflet]->head[leaflet];
+    const bool neutral = patches[leaflet]->neutral[leaflet] > patches[leaflet]->head[leaflet];
+    const double height = sign_of(leaflet) * (neutral ? patches[leaflet]->neutral : patches[leaflet]->head)[leaflet];
     const auto narrowest = part.narrowest(height);
     if (narrowest.stretch > LEAST_STRETCH) continue;
     const Vector3d &at = narrowest.place;
-    throw MoleculeError(text("the membrane is curved with a radius of %.4g Angstrom near %.4g %.4g %.4g, and the heads of the "
-                             "%s leaflet are %.4g from its middle: take a smoother surface, or a thinner patch",
-                             1.0 / std::fabs(narrowest.curvature), at[0], at[1], at[2],
-                             leaflet == OUTER ? "outer" : "inner", std::fabs(height)));
+    throw MoleculeError(text("the membrane is curved with a radius of %.4g Angstrom near %.4g %.4g %.4g, and the %s of the "
+                             "%s leaflet are %.4g from its middle: take a smoother surface, or a %s",
+                             1.0 / std::fabs(narrowest.curvature), at[0], at[1], at[2], neutral ? "neutral surfaces" : "heads",
+                             leaflet == OUTER ? "outer" : "inner", std::fabs(height),
+                             neutral ? "smaller height for neutral" : "thinner patch"));
   }
 }
 

@@ -169,6 +169,25 @@ TEST(NormalMotion, KnowsRigidMotions)
   EXPECT_EQ(NormalMotion(egg, {false, false, false}).rigid().cols(), 6);
 }
 
+// what goes along itself through the box is where it was, also where rounding or a minimization has left it uneven
+
+TEST(NormalMotion, HasNoTranslationsAlongSheetsAndTubes)
+{
+  Eigen::Matrix3d lattice = Eigen::Vector3d(8.0, 4.0 * std::sqrt(3.0), 8.0).asDiagonal();
+  TriangleMesh flat = sheet(16, 16, lattice, 0.5), pipe = tube(16, 20, 1.5, lattice, 2);
+  for (TriangleMesh *mesh : {&flat, &pipe}) {
+    mesh->lattice = lattice;
+    mesh->periodic = {mesh == &flat, mesh == &flat, mesh == &pipe};
+  }
+  const VectorXd noise = numbers(static_cast<int>(flat.points.size()), 1, 7);
+  for (double uneven : {0.0, 1e-12, 1e-4}) {
+    TriangleMesh mesh = flat;
+    for (size_t v = 0; v < mesh.points.size(); ++v) mesh.points[v][2] += uneven * noise[v];
+    EXPECT_EQ(NormalMotion(mesh, {true, true, false}).rigid().cols(), 1) << uneven;
+  }
+  EXPECT_EQ(NormalMotion(pipe, {false, false, true}).rigid().cols(), 2);
+}
+
 TEST(NormalMotion, PreconditionsByThePlatesOwnStiffness)
 {
   // harmonics of a unit sphere: about 1/(l (l + 1))^2 for each area

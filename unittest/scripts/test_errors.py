@@ -181,6 +181,8 @@ COMMANDS = [
     (create("1 plane 8 8 scale 2 1 1"), "create_membrane plane spans the box: it cannot be scaled"),
     (create("1 cylinder 8 8 1.0 w"), "create_membrane cylinder axis w is not x, y or z"),
     (create("1 cylinder 8 7 1.0 z"), "even number of rings, at least 4, not 7"),
+    (create("1 cylinder 4 8 1.9 z"), "create_membrane cylinder: an edge spans half the periodic box in"),
+    (create("1 sphere 1 1.0 center 1e20 0 0"), "boxes away in x; use scale and center"),
     (create("1 cylinder 8 8 1.0 z", OPEN_BOX), "create_membrane cylinder needs a box that is periodic in z"),
     (create("1 torus 8 7 1.0 0.4"), "even number of points around its tube, at least 4, not 7"),
     (create("1 torus 8 8 0.4 1.0"), "tube radius of a torus must be smaller"),

@@ -149,7 +149,7 @@ for words, said in (("sphere 4 average", "missing"), ("sphere 4 average 0", "ave
                     ("sphere 4 average 1 mean 3", "known are")):
     message = error_of(VESICLE + f"compute a all hd/modes {words}\nrun 1\n")
     claim(f"error: {words}", said in message, message[:140])
-message = error_of(VESICLE + "compute a all hd/modes sphere 4 average 1 file nowhere/at/all\nrun 1\n")
-claim("error: a file that cannot be written", "cannot open file nowhere/at/all" in message, message[:140])
+message = error_of(VESICLE + "compute a all hd/modes sphere 4 average 1 file nowhere/at/all\n")
+claim("error: a file that cannot be written, before any run", "cannot open file nowhere/at/all" in message, message[:140])
 
 finish()

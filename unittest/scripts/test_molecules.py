@@ -462,6 +462,8 @@ for options, expected in (
 claim("error: units of unknown length", "scale" in error_of(scaled + "membrane_build patch small.pdb out bad\n"))
 line = error("patch small.pdb out bad", "sphere 2 15", BOX)
 claim("error: a membrane too curved for the patch, and where", "radius of" in line and "near" in line, line)
+line = error("patch small.pdb neutral 44.5 out bad", "sphere 2 45", "-100 100 -100 100 -100 100")
+claim("error: a neutral surface beyond the middle of a sphere", "neutral surfaces of the inner leaflet are 44.5 from its middle" in line, line)
 with open("small.psf") as file:
     psf = file.read()
 with open("short.psf", "w") as file:
