@@ -32,7 +32,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <system_error>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -290,7 +292,7 @@ void MoleculesBuild::check_paths() const
   if (comm->me == 0)
     for (const std::string &format : formats) {
       const std::string path = path_of(format), folder = platform::path_dirname(path);
-      if (!platform::path_is_directory(folder))
+      if (std::error_code unknown; !std::filesystem::is_directory(folder, unknown))
         message = "cannot write " + path + ": there is no folder " + folder + ", create it";
       else if (!overwrite && platform::file_is_readable(path))
         message = "there is a file " + path + " already: choose another name, or overwrite yes";
