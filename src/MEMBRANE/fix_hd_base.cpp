@@ -24,6 +24,7 @@
 #include "fmt/format.h"
 #include "force.h"
 #include "hd_face_watch.h"
+#include "hd_foreign_integrators.h"
 #include "hd_stiffness_probe.h"
 #include "membrane_mass_reference.h"
 #include "modify.h"
@@ -44,9 +45,6 @@ static constexpr double MOST_DRIFT = 0.25;
 
 // mass sampling moves a membrane as a whole: so much of its radius, which is 0.26 edges times the root of its points
 static constexpr double RADIUS = 0.26;
-
-// two fixes have the same temperature if they differ by less than this part of it
-static constexpr double SAME = 1.0e-9;
 
 // steps between looks at whether a shape has left the reference of mass sampling
 static constexpr int RENEW_EVERY = 100;
@@ -108,50 +106,11 @@ void FixHDBase::init()
   mass.init();
   faces->init();
   check_other_integrators();
+  check_fixes_of_points(lmp, this, mass.settings.kind != Membrane_NS::MassKind::LUMPED || modes(), sampling(), modes());
   if (modes()) check_box();
   most_drift = MOST_DRIFT * mass.mesh().longest_edge();
   if (sampling()) most_drift *= MAX(1.0, RADIUS * std::sqrt(mass.count()));
   moved_step = -1;
-}
-
-void FixHDBase::check_other_integrators()
-{
-  for (auto &other : modify->get_fix_list()) {
-    if (other != this && other->time_integrate && groups_meet(lmp, groupbit, other->groupbit))
-      error->all(FLERR, "Control points of fix {} are also moved by fix {} ({}): use groups without common atoms", id,
-                 other->id, other->style);
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixHDBase *FixHDBase::of_group(LAMMPS *lmp, int groupbit, const std::string &user)
-{
-  FixHDBase *found = nullptr;
-  for (auto &fix : lmp->modify->get_fix_list()) {
-    auto *integrator = dynamic_cast<FixHDBase *>(fix);
-    if (!integrator || !groups_meet(lmp, groupbit, integrator->groupbit)) continue;
-    if (found &&
-        (found->mass_settings().kind != integrator->mass_settings().kind || found->modes() != integrator->modes() ||
-         found->drag_coefficient() != integrator->drag_coefficient()))
-      lmp->error->all(FLERR, "{}: fixes {} and {} move atoms of the group with different mass matrices; "
-                      "use a group of one of them", user, found->id, integrator->id);
-    if (!found) found = integrator;
-  }
-  return found;
-}
-
-std::string FixHDBase::other_temperature(LAMMPS *lmp, const Fix *user, double temperature)
-{
-  for (auto &fix : lmp->modify->get_fix_list()) {
-    const auto *integrator = dynamic_cast<FixHDBase *>(fix);
-    if (!integrator || !groups_meet(lmp, user->groupbit, integrator->groupbit)) continue;
-    const double other = integrator->sampled_kT() / lmp->force->boltz;
-    if (other > 0.0 && std::fabs(other - temperature) > SAME * temperature)
-      return fmt::format("Fix {} has the temperature {:.6g}, and fix {} ({}) samples at {:.6g}: they need one temperature, "
-                         "all the time", user->style, temperature, fix->id, fix->style, other);
-  }
-  return "";
 }
 
 /* ---------------------------------------------------------------------- */
@@ -206,9 +165,7 @@ void FixHDBase::find_limit()
   if (!(largest > 0.0)) return;
   limit = 2.0 / (drag_coefficient() > 0.0 ? largest : std::sqrt(largest));
   if (update->dt > limit && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix {}: timestep {} is beyond the stability limit of about {:.3g}; hd_timestep "
-                   "finds it precisely",
+    error->warning(FLERR, "Fix {}: timestep {} is beyond the stability limit of about {:.3g}; hd_timestep finds it precisely",
                    style, update->dt, limit);
 }
 
@@ -376,7 +333,7 @@ void FixHDBase::report_runaway(tagint id_of_point)
                           limit, shape_lost_at(id_of_point));
   error->one(FLERR,
              "Fix {}: control point {} moved further than {} in one step: {}; "
-             "hd_timestep finds the limit precisely",
+             "hd_timestep finds the limit precisely, forces of fixes apart",
              style, id_of_point,
              sampling() ? "a quarter of a membrane's radius"
                         : fmt::format("{} of an edge{}", MOST_DRIFT, modes() ? ", and of 1/q of the shortest wave," : ""), reason);
@@ -440,7 +397,7 @@ bool FixHDBase::step_back(double half_kick)
   if (10 * taken_back_here > MAX(tried_here, WORTH_CHECKING))
     error->all(FLERR,
                "Fix {}: {} of {} steps of this timestep would have torn the mesh and were taken back: the timestep {} is too "
-               "long; hd_timestep finds the limit", style, taken_back_here, tried_here, update->dt);
+               "long; hd_timestep finds the limit, forces of fixes apart", style, taken_back_here, tried_here, update->dt);
   const MeshPart &part = mass.part();
   const double kick = half_kick * force->ftm2v;
   for (int i = 0; i < part.owned; ++i) {

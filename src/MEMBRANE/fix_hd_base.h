@@ -71,6 +71,8 @@ class FixHDBase : public Fix {
   void respond(const double *const *f, double **v);
   /// The temperature, times Boltzmann's constant, that its shapes are sampled at; 0 if it is not known.
   double sampled_kT() const { return measure.kT; }
+  /// For commands that sort atoms between runs, whose next one may be without setup.
+  static void atoms_renumbered(class LAMMPS *);
   /// Something has moved atoms after a step's end, and their forces are others.
   void forces_changed() { forces_due = true; }
   /// Collective: twice the kinetic energy by direction, mass times velocity squared.

@@ -25,6 +25,7 @@
 #include "group.h"
 #include "helfrich_model.h"
 #include "math_extra.h"
+#include "mesh_exclusion.h"
 #include "mesh_gather.h"
 #include "modify.h"
 #include "pair.h"
@@ -49,7 +50,7 @@ enum { NEIGHBORS, ANYWHERE = 2, LEAFLETS = 4, ROUNDING, STREAMS = 8 };
 
 FixHDLipids::FixHDLipids(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), temperature(0.0), diffusion(0.0), anywhere(0.0), flips(0.0), seed(0),
-    mesh(lmp, "Fix hd/lipids"), model(nullptr), composition(nullptr), warned(false), filled(false), visits(0), last_visit(-1),
+    mesh(lmp, "Fix hd/lipids"), model(nullptr), composition(nullptr), warned(false), published(false), filled(false), visits(0), last_visit(-1),
     attempted(0), accepted(0), energy(0.0)
 {
   parse(narg, arg);
@@ -66,7 +67,7 @@ FixHDLipids::FixHDLipids(LAMMPS *lmp, int narg, char **arg) :
 
 FixHDLipids::~FixHDLipids()
 {
-  if (!exchange) return;
+  if (!published) return;
   MeshLipids &lipids = mesh->lipids();
   lipids.active = false;
   ++lipids.stamp;
@@ -193,7 +194,7 @@ void FixHDLipids::init()
   rules = std::make_unique<Membrane_NS::PatchRules>(model->quadrature());
   groups.clear();
 
-  // until the shape is known, in setup_pre_force(), faces have what pair_coeff says
+  // until the shape is known, in setup_pre_force(), faces of new membranes have what pair_coeff says
 
   MeshLipids &lipids = mesh->lipids();
   const int nfaces = mesh->topology().num_faces();
@@ -203,12 +204,17 @@ void FixHDLipids::init()
     lipids.outer[f] = composed(f, 0);
     lipids.inner[f] = composed(f, 1);
   }
-  lipids.active = true;
+  lipids.active = published = true;
   places.lipids = nullptr;
   ++lipids.stamp;
   exchange.reset();
   filled = false;
   last_visit = -1;
+
+  // lipids that are there need no shape, and commands that are no run call init() alone
+
+  find_kept();
+  if (std::none_of(anew.begin(), anew.end(), [](char c) { return c != 0; })) take_up();
 }
 
 void FixHDLipids::setup_pre_force(int)
@@ -241,6 +247,8 @@ void FixHDLipids::follow()
   const MeshLipids &lipids = mesh->lipids();
   const int nslots = count_slots(groups);
   kc = faces.kc;
+  std::vector<char> counts(mesh->topology().num_faces(), 0);
+  for (int face : MeshExclusion(lmp).remaining_faces(*mesh)) counts[face] = 1;
   distance.assign(nslots, 0.0);
   if (faces.has_leaflets()) distance = faces.leaflet;
   base_outer.assign(nslots, 0.0);
@@ -248,6 +256,7 @@ void FixHDLipids::follow()
   for (const FaceGroup &group : groups)
     for (int s = 0; s < group.nfaces; ++s) {
       const int slot = group.first_slot + s, f = group.face[s];
+      if (!counts[f]) kc[slot] = 0.0;
       if (distance[slot] > 0.0) {
         base_outer[slot] = faces.outer[slot] - lipids.outer[f];
         base_inner[slot] = faces.inner[slot] - lipids.inner[f];

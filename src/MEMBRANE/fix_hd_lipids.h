@@ -91,22 +91,27 @@ class FixHDLipids : public Fix {
   // lipids, while faces stay
   std::unique_ptr<Membrane_NS::LipidExchange> exchange;
   bool warned;    // that an integrator has another temperature
+  bool published;    // to the mesh
   bool filled;
   LipidPlaces places;
-  std::vector<std::array<bigint, 3>> corners;    // by face: see KeptFace
 
   // lipids as they go through restarts and changes of the mesh: by the origins of a face's corners, increasing
   struct KeptFace {
     std::array<bigint, 3> corners{};
+    std::array<int, 3> types{};           // of these corners, in their order
     std::array<std::string, 2> lipids;    // kinds, in the order of their numbers
     bool operator<(const KeptFace &o) const { return corners < o.corners; }
     void archive(RestartArchive &file)
     {
       for (bigint &corner : corners) file(corner);
+      for (int &type : types) file(type);
       for (std::string &leaflet : lipids) file(leaflet);
     }
   };
   std::vector<KeptFace> kept;
+  std::vector<KeptFace> keys;               // by face, without lipids: as they were when these were put there
+  std::vector<const KeptFace *> found;      // by face, those of its lipids
+  std::vector<char> anew;                   // by membrane: takes part, and has none that were kept
   std::vector<std::string> kept_kinds;    // their names, by number
   std::vector<std::string> kept_words;    // by type: the composition they were made of
 
@@ -117,12 +122,13 @@ class FixHDLipids : public Fix {
   void check_surroundings();
   void find_membranes();
   std::string words_of(int type) const;
+  void find_kept();
   void take_up();
-  std::array<std::vector<double>, 2> free_areas(const std::vector<char> &filling) const;
+  std::array<std::vector<double>, 2> free_areas() const;
   void start(Membrane_NS::FaceLipids);
   void keep();
   void follow_origins();
-  std::array<bigint, 3> corners_of(int face, const std::vector<bigint> &origins) const;
+  KeptFace key_of(int face, const std::vector<bigint> &origins) const;
   double composed(int face, int leaflet) const;
 
   void follow();

@@ -52,12 +52,16 @@ std::string FixHDLipids::words_of(int type) const
   return words;
 }
 
-std::array<bigint, 3> FixHDLipids::corners_of(int face, const std::vector<bigint> &origins) const
+FixHDLipids::KeptFace FixHDLipids::key_of(int face, const std::vector<bigint> &origins) const
 {
-  const auto &corners = mesh->topology().face(face);
-  std::array<bigint, 3> sorted = {origins[corners[0]], origins[corners[1]], origins[corners[2]]};
-  std::sort(sorted.begin(), sorted.end());
-  return sorted;
+  auto corners = mesh->topology().face(face);
+  std::sort(corners.begin(), corners.end(), [&](int v, int w) { return origins[v] < origins[w]; });
+  KeptFace key;
+  for (int k = 0; k < 3; ++k) {
+    key.corners[k] = origins[corners[k]];
+    key.types[k] = types[corners[k]];
+  }
+  return key;
 }
 
 /* ----------------------------------------------------------------------
@@ -65,7 +69,7 @@ std::array<bigint, 3> FixHDLipids::corners_of(int face, const std::vector<bigint
    and once this is full of those around it
 ------------------------------------------------------------------------- */
 
-std::array<std::vector<double>, 2> FixHDLipids::free_areas(const std::vector<char> &filling) const
+std::array<std::vector<double>, 2> FixHDLipids::free_areas() const
 {
   struct Taken {
     tagint tag;
@@ -90,7 +94,7 @@ std::array<std::vector<double>, 2> FixHDLipids::free_areas(const std::vector<cha
     std::vector<int> reached(nfaces, -1);
     for (size_t p = 0; p < taken.size(); ++p) {
       const int m = membrane_of[taken[p].face];
-      if (!takes_part[m] || !filling[m]) continue;
+      if (!anew[m]) continue;
       double left = taken[p].area;
       std::vector<int> around = {taken[p].face};
       reached[taken[p].face] = static_cast<int>(p);
@@ -115,7 +119,34 @@ std::array<std::vector<double>, 2> FixHDLipids::free_areas(const std::vector<cha
 }
 
 /* ----------------------------------------------------------------------
-   lipids of membranes whose faces were there before, the others as pair_coeff says
+   which lipids that were kept are those of a face now: on membranes whose faces were there before, with corners
+   whose composition is the same
+------------------------------------------------------------------------- */
+
+void FixHDLipids::find_kept()
+{
+  const int nfaces = mesh->topology().num_faces();
+  found.assign(nfaces, nullptr);
+  anew.assign(takes_part.size(), 0);
+  std::vector<std::string> words(1);
+  for (int type = 1; type <= atom->ntypes; ++type) words.push_back(words_of(type));
+  const auto same_words = [&](int before, int now) {
+    return static_cast<size_t>(before) < kept_words.size() && kept_words[before] == words[now];
+  };
+  for (int f = 0; f < nfaces; ++f) {
+    if (!takes_part[membrane_of[f]]) continue;
+    const KeptFace wanted = key_of(f, model->origins().now());
+    const auto face = std::lower_bound(kept.begin(), kept.end(), wanted);
+    const bool there = face != kept.end() && face->corners == wanted.corners;
+    if (there && std::equal(face->types.begin(), face->types.end(), wanted.types.begin(), same_words))
+      found[f] = &*face;
+    else
+      anew[membrane_of[f]] = 1;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what find_kept() has found, and on other membranes what pair_coeff says
 ------------------------------------------------------------------------- */
 
 void FixHDLipids::take_up()
@@ -124,36 +155,20 @@ void FixHDLipids::take_up()
   const LipidLibrary &library = composition->library();
   const int nfaces = topology.num_faces(), nkinds = library.size();
   const int nmembranes = static_cast<int>(takes_part.size());
-
   std::vector<int> kind_now;
   for (const std::string &name : kept_kinds) kind_now.push_back(library.find(name));
-  std::vector<const KeptFace *> found(nfaces, nullptr);
-  std::vector<char> anew(nmembranes, 0);
-  for (int v = 0; v < topology.num_vertices(); ++v) {
-    const size_t type = types[v];
-    if (type >= kept_words.size() || kept_words[type] != words_of(types[v]))
-      anew[mesh->membrane(topology.component(v))] = 1;
-  }
-  for (int f = 0; f < nfaces; ++f) {
-    KeptFace wanted;
-    wanted.corners = corners_of(f, model->origins().now());
-    const auto face = std::lower_bound(kept.begin(), kept.end(), wanted);
-    if (face != kept.end() && face->corners == wanted.corners)
-      found[f] = &*face;
-    else
-      anew[membrane_of[f]] = 1;
-  }
 
   // new membranes: whole numbers from areas, leaflet by leaflet
 
   std::array<std::vector<int>, 2> numbers;    // [faces][kinds], of new membranes
   std::array<std::vector<int>, 2> totals;
-  const auto areas = free_areas(anew);
+  std::array<std::vector<double>, 2> areas;
+  if (std::count(anew.begin(), anew.end(), 1)) areas = free_areas();
   for (int l = 0; l < 2; ++l) {
     numbers[l].assign(static_cast<size_t>(nfaces) * nkinds, 0);
     totals[l].assign(nfaces, 0);
     for (int m = 0; m < nmembranes; ++m) {
-      if (!takes_part[m] || !anew[m]) continue;
+      if (!anew[m]) continue;
       std::vector<int> faces;
       for (int f = 0; f < nfaces; ++f)
         if (membrane_of[f] == m) faces.push_back(f);
@@ -215,8 +230,8 @@ void FixHDLipids::start(FaceLipids lipids)
   }
   filled = true;
 
-  corners.resize(nfaces);
-  for (int f = 0; f < nfaces; ++f) corners[f] = corners_of(f, model->origins().now());
+  keys.resize(nfaces);
+  for (int f = 0; f < nfaces; ++f) keys[f] = key_of(f, model->origins().now());
   kept_kinds.clear();
   places.lipids = &exchange->lipids();
   places.mesh = &*mesh;
@@ -241,8 +256,7 @@ void FixHDLipids::keep()
   std::vector<KeptFace> now;
   for (int f = 0; f < lipids.num_faces(); ++f) {
     if (!takes_part[membrane_of[f]]) continue;
-    KeptFace face;
-    face.corners = corners[f];
+    KeptFace face = keys[f];
     for (int l = 0; l < 2; ++l)
       for (int i = 0; i < lipids.size(l, f); ++i)
         face.lipids[l].push_back(static_cast<char>(lipids.kind(l, lipids.first(l, f) + i)));
@@ -258,12 +272,22 @@ void FixHDLipids::follow_origins()
 {
   std::vector<KeptFace> now;
   for (int f = 0; f < mesh->topology().num_faces(); ++f) {
-    KeptFace face;
-    face.corners = corners_of(f, model->origins().before());
-    const auto found = std::lower_bound(kept.begin(), kept.end(), face);
-    if (found == kept.end() || found->corners != face.corners) continue;
-    face.corners = corners_of(f, model->origins().now());
-    face.lipids = found->lipids;
+    const KeptFace before = key_of(f, model->origins().before());
+    const auto its = std::lower_bound(kept.begin(), kept.end(), before);
+    if (its == kept.end() || its->corners != before.corners) continue;
+    KeptFace face = key_of(f, model->origins().now());
+
+    // types of corners are those that they had: in the order of the new origins
+
+    const auto types_before = its->types;
+    const auto vertices = mesh->topology().face(f);
+    for (int v : vertices) {
+      const auto at = [v](const KeptFace &key, const std::vector<bigint> &origins) {
+        return std::find(key.corners.begin(), key.corners.end(), origins[v]) - key.corners.begin();
+      };
+      face.types[at(face, model->origins().now())] = types_before[at(before, model->origins().before())];
+    }
+    face.lipids = its->lipids;
     now.push_back(std::move(face));
   }
   std::sort(now.begin(), now.end());

@@ -22,14 +22,18 @@
 #include "error.h"
 #include "fix.h"
 #include "mesh_distributed.h"
+#include "mesh_group.h"
 #include "modify.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 using namespace LAMMPS_NS;
 
-// rigid and prescribed motion is the same with any mass matrix
-static constexpr const char *FITTING[] = {"^hd/", "^move", "^rigid", "^nve/noforce"};
+static bool is_one_of(const char *style, std::initializer_list<const char *> patterns)
+{
+  return std::any_of(patterns.begin(), patterns.end(), [style](const char *pattern) { return utils::strmatch(style, pattern); });
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -37,10 +41,10 @@ void HDForeignIntegrators::warn(const DistributedMesh &mesh)
 {
   for (auto &fix : modify->get_fix_list()) {
     if (!fix->time_integrate) continue;
-    const bool fits = std::any_of(std::begin(FITTING), std::end(FITTING), [&](const char *pattern) {
-      return utils::strmatch(fix->style, pattern);
-    });
-    if (fits) continue;
+
+    // rigid and prescribed motion is the same with any mass matrix
+
+    if (is_one_of(fix->style, {"^hd/", "^move", "^rigid", "^nve/noforce"})) continue;
     if (std::find(warned.begin(), warned.end(), fix->id) != warned.end()) continue;
     bigint mine = 0, all;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -59,5 +63,37 @@ void HDForeignIntegrators::warn(const DistributedMesh &mesh)
                      "mass matrix of the surface, and waves are too slow; use fix hd/nve, "
                      "hd/langevin or hd/brownian",
                      fix->id, fix->style, all);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LAMMPS_NS::check_fixes_of_points(LAMMPS *lmp, const Fix *user, bool coupled, bool sampling, bool modes)
+{
+  const Atom *atom = lmp->atom;
+  for (auto &fix : lmp->modify->get_fix_list()) {
+    const bool turns = is_one_of(fix->style, {"^wall/reflect", "^oneway"});
+    const bool shifts = modes && is_one_of(fix->style, {"^recenter", "^momentum"});
+    const bool takes = is_one_of(fix->style, {"^setforce", "^lineforce", "^planeforce", "^aveforce"});
+    if (!(turns || shifts || takes) || !coupled || !groups_meet(lmp, user->groupbit, fix->groupbit)) continue;
+    if (shifts)
+      lmp->error->all(FLERR, "Fix {} modes: fix {} ({}) takes membranes out of their modes, which have no motion as a whole: "
+                             "leave it out", user->style, fix->id, fix->style);
+    if (turns && (sampling || modes))
+      lmp->error->all(FLERR, "Fix {}: fix {} ({}) turns velocities of single points, and {} moves them together: use a wall "
+                             "that acts by forces, such as fix wall/harmonic", user->style, fix->id, fix->style,
+                      modes ? "a mode" : "mass sampling");
+    int mine = 0, some;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & user->groupbit && !(atom->mask[i] & fix->groupbit)) mine = 1;
+    MPI_Allreduce(&mine, &some, 1, MPI_INT, MPI_MAX, lmp->world);
+    if (lmp->comm->me != 0 || (takes && !some)) continue;
+    if (turns)
+      lmp->error->warning(FLERR, "Fix {} ({}) turns velocities of single points, which masses couple: energy is not kept; "
+                                 "use a wall that acts by forces, such as fix wall/harmonic, or mass lumped", fix->id, fix->style);
+    else
+      lmp->error->warning(FLERR, "Fix {} ({}) takes forces from some of the points that fix {} ({}) moves, which masses couple: "
+                                 "they move all the same, and energy grows; hold points with fix spring/self, or use mass lumped",
+                          fix->id, fix->style, user->id, user->style);
   }
 }

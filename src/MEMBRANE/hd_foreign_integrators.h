@@ -35,6 +35,11 @@ class HDForeignIntegrators : protected Pointers {
   std::vector<std::string> warned;    // IDs of fixes
 };
 
+/** Collective; call from init() of a fix that moves control points. Fixes that turn velocities of single points,
+    or take forces from some of a membrane's, do not know that masses couple them: a warning, an error where points
+    have no freedom of their own. coupled: the mass matrix is not diagonal. */
+void check_fixes_of_points(class LAMMPS *, const class Fix *user, bool coupled, bool sampling, bool modes);
+
 }    // namespace LAMMPS_NS
 
 #endif

@@ -74,6 +74,7 @@ void HDModes::command(int narg, char **arg)
     error->all(FLERR, "hd_modes: mass sampling is stiffness in place of mass: choose another by keyword mass");
 
   StiffnessProbe::place_atoms(lmp);
+  FixHDBase::atoms_renumbered(lmp);
   mass.init(true);
   if (mass.count() == 0) error->all(FLERR, "hd_modes: group {} has no control points", arg[0]);
   StiffnessProbe probe(lmp, mass, StiffnessProbe::Forces::ALL);

@@ -33,6 +33,7 @@
 #include "math_const.h"
 #include "membrane_mass_kinds.h"
 #include "membrane_tessellation.h"
+#include "mesh_group.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
@@ -88,6 +89,7 @@ void HDTimestep::command(int narg, char **arg)
   const bool overdamped = mass.drag_coefficient() > 0.0;
 
   StiffnessProbe::place_atoms(lmp);
+  FixHDBase::atoms_renumbered(lmp);
   mass.init(true);
   if (mass.count() == 0) error->all(FLERR, "hd_timestep: group {} has no control points", arg[0]);
 
@@ -116,6 +118,14 @@ void HDTimestep::command(int narg, char **arg)
   if (springs > 0.0)
     print(fmt::format("  {:<36}{:.6g}\n", overdamped ? "of these, of bound particles" : "of bound particles alone",
                       overdamped ? springs : std::sqrt(springs)));
+  std::string others;
+  for (int i = 0; i < modify->nfix; ++i) {
+    const Fix *fix = modify->fix[i];
+    const bool ours = utils::strmatch(fix->style, "^hd/") || utils::strmatch(fix->style, "^srd");
+    if (!(modify->fmask[i] & FixConst::POST_FORCE) || ours || utils::strmatch(fix->style, "^langevin")) continue;
+    if (groups_meet(lmp, group->bitmask[igroup], fix->groupbit)) others += fmt::format(" {} ({})", fix->id, fix->style);
+  }
+  if (!others.empty()) print(fmt::format("  (without the forces of fixes:{})\n", others));
   print(fmt::format("  {:<36}{:.6g}\n", "stability limit", limit));
 
   double period = 0.0;

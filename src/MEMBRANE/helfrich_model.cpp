@@ -20,6 +20,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "force.h"
 #include "modify.h"
 #include "update.h"
 
@@ -129,6 +130,8 @@ void HelfrichModel::check_types()
     if (!is_point && has) bad[1] = MAX(bad[1], atom->tag[i]);
   }
   MPI_Allreduce(bad, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (any[0] && force->pair_match("helfrich", 1, 2))
+    error->all(FLERR, "pair_style helfrich stands several times in hybrid: use it once, for all membranes");
   if (any[0])
     error->all(FLERR, "Control point {} is of a type without coefficients: add a pair_coeff line",
                any[0]);
@@ -287,7 +290,7 @@ void HelfrichModel::measure(const Wanted &wanted)
     if (membrane_volume[m] && scene.totals.membranes()[m].volume <= 0.0)
       error->all(FLERR,
                  "Membrane {} encloses the volume {:.6g}: its faces are inside out; reverse the "
-                 "order of their corners",
+                 "order of their corners, as flip yes of create_membrane does",
                  scene.mesh->molecules()[m], scene.totals.membranes()[m].volume);
 }
 

@@ -74,8 +74,7 @@ void HelfrichTermLipids::localize(const std::vector<FaceGroup> &groups, FaceMode
     for (const FaceGroup &group : groups)
       for (int s = 0; s < group.nslots(); ++s) {
         const int slot = group.first_slot + s, face = group.face[std::min(s, group.nfaces - 1)];
-        model.add_curvatures(slot, share[slot] * on_faces->outer[face] - outer[slot],
-                             share[slot] * on_faces->inner[face] - inner[slot]);
+        model.add_curvatures(slot, on_faces->outer[face] - outer[slot], on_faces->inner[face] - inner[slot]);
       }
   if (std::count(unlogged.begin(), unlogged.end(), 1)) log(groups, model);
 }

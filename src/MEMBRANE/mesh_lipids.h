@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 
 /** What lipids there are on each face, as far as its energy is concerned: the spontaneous curvature of the
     monolayers of either leaflet, by face of the topology and the same on the ranks that have the face. While
-    active it stands in place of the mean that `lipids` of pair style helfrich gives to faces that have it. Who
+    active it stands in place of the mean over corners that `lipids` of pair style helfrich gives, 0 at those without. Who
     writes here counts the stamp up, on all ranks together. */
 struct MeshLipids {
   bool active = false;

@@ -168,8 +168,8 @@ void MeshUnwrapped::correct_images()
   }
   MPI_Allreduce(&corrected, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (total && comm->me == 0)
-    utils::logmesg(lmp, "Set image flags of {} control points so that closed membranes are in one piece\n",
-                   total);
+    utils::logmesg(lmp, "Set image flags of {} control points so that closed membranes are in one piece; use run 0 before "
+                        "fixes and computes that remember places\n", total);
 }
 
 /* ---------------------------------------------------------------------- */

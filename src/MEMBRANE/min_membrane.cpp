@@ -22,6 +22,7 @@
 #include "error.h"
 #include "fix_minimize.h"
 #include "force.h"
+#include "modify.h"
 #include "output.h"
 #include "pair.h"
 #include "thermo.h"
@@ -64,6 +65,11 @@ void MinMembrane::setup_style()
   if (nextra_global || nextra_atom)
     error->all(FLERR, "Min style membrane moves atoms only: use another min_style with fix "
                       "box/relax and with pair styles that have extra degrees of freedom");
+  for (const char *style : {"^lineforce", "^planeforce"})
+    for (auto &fix : modify->get_fix_by_style(style))
+      if (comm->me == 0)
+        error->warning(FLERR, "Min style membrane keeps lines and planes that are parallel to axes, and others not: use "
+                              "min_style cg where fix {} ({}) has another", fix->id, fix->style);
   for (int i = 0; i < 2 * MEMORY; ++i) fix_minimize->add_vector(3);
   mesh.init();
   shape = mesh->triangle_mesh();

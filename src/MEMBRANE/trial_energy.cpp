@@ -43,7 +43,7 @@ using namespace LAMMPS_NS;
 static constexpr const char *NOISE[] = {"^langevin", "^qtb", "^ttm"};
 
 // they count steps by calls for their forces
-static constexpr const char *STATEFUL[] = {"^colvars", "^plumed", "^imd", "^lb/"};
+static constexpr const char *STATEFUL[] = {"^colvars", "^plumed", "^imd", "^lb/", "^smd", "^flow/gauss", "^electron/stopping"};
 
 template <class Patterns> static bool is_one_of(const Fix *fix, const Patterns &patterns)
 {

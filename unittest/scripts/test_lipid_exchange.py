@@ -198,6 +198,76 @@ for text, script in {
     line = error_of(script + "run 5\n")
     claim(f"error: ... {text} ...", text in line, "" if text in line else line)
 
+# === Commands that are no run leave lipids where they are
+
+HOT = "library A 0.1 0.6 library B 0.1 -0.6"
+PLAIN = """
+units           lj
+atom_style      membrane_cp
+region          box block -6 6 -6 6 -6 6
+create_box      3 box angle/types 1
+create_membrane 1 sphere 2 2.0
+special_bonds   lj/coul 1 1 1
+group           low id < 80
+pair_style      helfrich
+pair_coeff      1 1 10.0 0.0 regularize 10 lipids NULL outer A 1 B 1 inner B 1 """ + HOT + """
+pair_coeff      2 2 10.0 0.0 regularize 10 lipids NULL outer C 1 inner D 1 library C 0.1 0.2 library D 0.1 -0.3
+thermo_modify   norm no format float %.14g
+thermo          10
+timestep        0.001
+"""
+EXCHANGE = "fix i all hd/nve\nfix x all hd/lipids 10 1.0 4711 global 1\n"
+NUMBERED = """
+compute         n all membrane/lipids
+variable        sum equal pe+f_x
+thermo_style    custom step pe f_x v_sum c_n[1] c_n[2] c_n[3] c_n[4]
+thermo_modify   norm no format float %.14g
+"""
+for ranks in RANKS[:2]:
+    rest = "run 50 pre no" if ranks == 1 else "run 50"    # LAMMPS' forces do not go along with atoms to other ranks
+    want = thermo(run(PLAIN + EXCHANGE + NUMBERED + f"run 50\n{rest}\n", ranks=ranks))[-1]
+    for command in ("write_data x.data", "write_restart x.restart", "hd_timestep all", "hd_modes all lowest 2 file x.txt"):
+        got = thermo(run(PLAIN + EXCHANGE + NUMBERED + f"run 50\n{command}\n{rest}\n", ranks=ranks))[-1]
+        off = max(abs(got[k] - want[k]) / (1 + abs(want[k])) for k in want)
+        claim(f"{ranks} ranks: {command.split()[0]} between two runs changes nothing", off < 1e-9, f"{off:.1e}")
+output = run(PLAIN + EXCHANGE + NUMBERED + "run 50\nwrite_data x.data\nwrite_membrane after.vtp\nprint \"now $(c_n[1])\"\n")
+claim("    lipids can be written and counted after it", "outer_A" in vtp_fields("after.vtp") and "now " in output)
+MODES = PLAIN + EXCHANGE.replace("global 1", "global 1 interaction A B 6") + "run 0\nunfix i\nrun 200\nhd_modes all lowest 1 file {0}\n"
+run(MODES.format("with.txt"))
+run(MODES.replace("hd_modes", "unfix x\nrun 0\nhd_modes").format("without.txt"))
+with_lipids, without = (next(line for line in open(path) if line.split()[1:2] == ["1"]) for path in ("with.txt", "without.txt"))
+claim("hd_modes sees the lipids that faces have", with_lipids != without, with_lipids)
+FRESH = "thermo_style custom step pe\nthermo_modify norm no format float %.14g\nunfix x\npair_coeff 1 1 10.0 0.0 regularize 10 lipids NULL outer A 1 inner A 1 " + HOT + "\nrun 0\n"
+energy = [thermo(run(PLAIN + EXCHANGE + f"run 0\n{command}" + FRESH))[-1]["PotEng"] for command in ("", "write_data x.data\n")]
+claim("    and after unfix nothing of them is left", abs(energy[0] / energy[1] - 1) < 1e-12, energy)
+kinds = [[row[f"c_n[{k}]"] > 0 for k in (1, 2, 3, 4)] for row in
+         (thermo(run(PLAIN + more + "set group all type 2\n" + (EXCHANGE + NUMBERED) * (more == "") + "run 0\n"))[-1]
+          for more in ("", EXCHANGE + NUMBERED + "run 50\n"))]
+claim("points of another type have the lipids of this type", kinds[0] == kinds[1] == [False, False, True, False], kinds)
+rows = thermo(run(PLAIN.replace("id < 80\n", "id < 80\nneigh_modify exclude group low low\n") +
+                  EXCHANGE.replace("fix i all hd/nve\n", "") + NUMBERED + "run 50\n"))
+sums = [row["v_sum"] for row in rows]
+claim("faces that neigh_modify leaves out cost their lipids nothing", max(sums) - min(sums) < 1e-9 * abs(sums[0]) + 1e-9, sums)
+OTHER = PLAIN.replace("create_membrane 1 sphere 2 2.0", "create_membrane 1 sphere 2 2.0 center -3 0 0\ncreate_membrane 2 sphere 2 2.0 center 3 0 0")
+OTHER += """
+pair_coeff      3 3 10.0 0.0
+region          up block INF INF INF INF 0 INF
+group           first molecule 1
+group           second molecule 2
+group           cap region up
+group           top intersect cap second
+set             group top type 3
+compute         e all pe/atom
+compute         its second reduce sum c_e
+thermo_style    custom step c_its
+thermo_modify   norm no format float %.14g
+run             0
+fix             x first hd/lipids 10 1.0 4711 global 1
+run             0
+"""
+its = [row["c_its"] for row in thermo(run(OTHER))]
+claim("the energy of another membrane, part of which has lipids, stays what it is", abs(its[0] / its[1] - 1) < 1e-12, its)
+
 RAMP = start(integrator="fix i all hd/langevin 1.0 1.1 1.0 4711\n") + "run 20\n"
 said = [run(script + "run 5\n").count("they need one temperature") for script in (RAMP, start())]
 claim("a temperature that is ramped away from that of lipids is told once", said == [1, 0], said)

@@ -98,6 +98,41 @@ output = run(PLAIN.format(fixes="fix 1 points nve").replace("run             10\
              "minimize 0 0 5 10\n")
 claim("no warning in a minimization", WARNING not in output)
 
+# === Fixes of single points, which masses couple
+
+COUPLED = """
+units           lj
+boundary        f f f
+atom_style      membrane_cp
+region          box block -4 4 -4 4 -4 4
+create_box      2 box angle/types 1
+create_membrane 1 sphere 2 1.0 mass 0.1
+group           some id 1:3
+pair_style      helfrich
+pair_coeff      1 1 1.0 0.0 regularize 1.0 conformal
+timestep        1e-4
+{fixes}
+run             5
+"""
+TURNS, TAKES = "turns velocities of single points", "takes forces from some of the points"
+for fixes, said in (("fix 1 all hd/nve\nfix w all wall/reflect zhi 0.95", TURNS), ("fix 1 all hd/nve mass lumped\nfix w all wall/reflect zhi 0.95", None),
+                    ("fix 1 all hd/nve\nfix w some setforce 0 0 0", TAKES), ("fix 1 all hd/nve\nfix w all setforce NULL NULL 0", None),
+                    ("fix 1 all hd/nve mass lumped\nfix w some lineforce 1 0 0", None),
+                    ("fix 1 all hd/langevin 0.05 0.05 1 4711 mass consistent\nfix w some planeforce 1 0 0", TAKES)):
+    output = run(COUPLED.format(fixes=fixes))
+    claim(f"{fixes!r}: {'a warning' if said else 'no warning'}", (TURNS in output, TAKES in output) == (said == TURNS, said == TAKES))
+for fixes, words in (("fix 1 all hd/langevin 0.05 0.05 1 4711 mass sampling\nfix w all wall/reflect zhi 0.95", ("mass sampling moves", "wall/harmonic")),
+                     ("fix 1 all hd/nve modes sphere min 2 max 3\nfix w all wall/reflect zhi 0.95", ("a mode moves", "wall/harmonic")),
+                     ("fix 1 all hd/nve modes sphere min 2 max 3\nfix w all recenter INIT INIT INIT", ("no motion as a whole", "leave it out")),
+                     ("pair_style hybrid helfrich helfrich\npair_coeff 1 1 helfrich 1 1.0 0.0\npair_coeff 2 2 helfrich 2 1.0 0.0\n"
+                      "pair_coeff 1 2 none\nset group some type 2\nfix 1 all hd/nve", ("several times in hybrid", "use it once"))):
+    line = error_of(COUPLED.format(fixes=fixes))
+    claim(f"error: {fixes!r}", all(word in line for word in words), line[:150])
+output = run(COUPLED.format(fixes="fix w some lineforce 1 1 0\nmin_style membrane\nminimize 0 1e-3 2 10\nfix 1 all hd/nve mass lumped"))
+claim("min_style membrane warns of lines and planes", "keeps lines and planes that are parallel to axes" in output)
+output = run(COUPLED.format(fixes="fix 1 all hd/nve\nfix w all spring/self 5.0\nhd_timestep all"))
+claim("hd_timestep names fixes whose forces it does not know", "(without the forces of fixes: w (spring/self))" in output)
+
 # === Wider than the box
 
 WIDE = """

@@ -341,6 +341,8 @@ for text, words, script in (
          "fix t mem hd/tension 5 0.05 1 xy\nrun 0\n"),
         ("a box that has got walls", "not periodic in z", LANGEVIN +
          "fix t all hd/tension 5 0.05 1 xyz\nrun 1\nchange_box all boundary p p f\nrun 1\n"),
+        ("a fix that counts steps by its calls", "after a trial move is not known", LANGEVIN +
+         "fix s all smd cvel 1 0.1 tether NULL NULL 4 0\nfix t all hd/tension 5 0.05 1 xy\nrun 1\n"),
         ("run_style respa", "respa", LANGEVIN.replace("langevin 0.05 0.05 1.5 4711 mass sampling", "nve") +
          "fix t all hd/tension 5 0.05 1 xy\nrun_style respa 2 2\nrun 0\n"),
         ("fix npt on control points", "use fix hd/langevin and fix hd/tension",

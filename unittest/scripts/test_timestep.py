@@ -132,6 +132,26 @@ for ranks in (1, 2):
     claim(f"{ranks} rank(s): energy, pressure and time keep their values",
           all(abs(a - b) <= 1e-12 * abs(a) for a, b in zip(*energy)), energy)
 
+for more in ("", " mass lumped"):
+    script = f"""
+units           lj
+atom_style      membrane_cp
+region          box block -6 6 -6 6 -6 6
+create_box      1 box angle/types 1
+create_membrane 1 sphere 2 2.0 scale 1 1 1.05
+pair_style      helfrich
+pair_coeff      1 1 20.0 0.0 regularize 20.0 conformal
+fix             1 all hd/nve{more}
+compute         T all hd/temp
+thermo_style    custom step pe c_T etotal
+thermo_modify   norm no format float %.14g temp T
+timestep        0.001
+run             100
+{{}}run             100 pre no
+"""
+    plain, after = (thermo(run(script.format(command)))[-1]["TotEng"] for command in ("", "hd_timestep all\n"))
+    claim(f"hd/nve{more}: a run without setup goes on as if there had been no hd_timestep", abs(after / plain - 1) < 1e-12, (plain, after))
+
 # === The recommended step
 
 relaxed = sphere(2) + "min_style membrane\nminimize 0 1e-8 100 1000\nreset_timestep 0\n"

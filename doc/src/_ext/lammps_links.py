@@ -15,7 +15,7 @@ PAGES = set('''
     compute_pe_atom compute_pressure compute_property_local compute_stress_atom create_atoms
     create_box delete_atoms dimension displace_atoms dump dump_image dump_modify fix fix_addforce
     fix_balance fix_box_relax fix_brownian fix_deform fix_langevin fix_modify fix_nh fix_nve
-    fix_numdiff fix_setforce fix_spring fix_srd group min_modify min_style minimize neighbor newton
+    fix_lineforce fix_numdiff fix_planeforce fix_setforce fix_spring fix_srd group min_modify min_style minimize neighbor newton
     pair_coeff pair_hybrid pair_lj pair_modify pair_style pair_write partition plugin processors
     read_data read_dump read_restart region replicate rerun reset_atoms reset_timestep restart run run_style set special_bonds
     thermo thermo_modify thermo_style timestep units variable velocity write_data write_dump
