@@ -179,11 +179,11 @@ for ranks in (1, 2):
     claim(f"the box is deformed, {ranks} rank(s): no solvent is lost, cells follow",
           rows[-1]["Atoms"] == 5120 and abs(rows[-1]["f_srd[1]"] - 1) < 0.05, rows[-1]["f_srd[1]"])
 rows = thermo(run(head(box=TILTED.format("0.0")) + fix("shift yes 9127 tstat yes", every=500) +
-                  "fix d all deform 1 xy erate 0.05 remap v\nrun 1500\nvariable p atom vx*(y-4)\n"
+                  "fix d all deform 1 xy erate 0.2 remap v\nrun 1500\nvariable p atom vx*(y-4)\n"
                   "compute p all reduce ave v_p\nvariable yy atom (y-4)^2\ncompute yy all reduce ave v_yy\n"
                   "thermo_style custom step c_p c_yy f_srd[1]\nrun 0\n", ranks=2))
 rate = rows[-1]["c_p"] / rows[-1]["c_yy"]
-claim("a box that shears, with remap v, drags the solvent along at its rate", abs(rate / 0.05 - 1) < 0.15, f"{rate:.4f}")
+claim("a box that shears, with remap v, drags the solvent along at its rate", abs(rate / 0.2 - 1) < 0.15, f"{rate:.4f}")
 
 # === Forces of bonds and angles: between collisions solvent moves as by fix nve
 
