@@ -130,7 +130,7 @@ void HelfrichModel::check_types()
     if (!is_point && has) bad[1] = MAX(bad[1], atom->tag[i]);
   }
   MPI_Allreduce(bad, any, 2, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (any[0] && force->pair_match("helfrich", 1, 2))
+  if (any[0] && !force->pair_match("helfrich", 1))
     error->all(FLERR, "pair_style helfrich stands several times in hybrid: use it once, for all membranes");
   if (any[0])
     error->all(FLERR, "Control point {} is of a type without coefficients: add a pair_coeff line",

@@ -219,8 +219,8 @@ int DistributedMesh::local_neighbor(int i, int neighbor, int face)
                       "commands that make or delete atoms", atom->tag[i], face_name(face), tags[neighbor]);
   error->one(FLERR,
              "Control point {}: {} needs control point {}, which is beyond the communication cutoff "
-             "{:.6g}, or was deleted; raise it with comm_modify cutoff, or if the mesh of a fluid membrane has lost its "
-             "shape, keep it with regularize in pair_coeff{}",
+             "{:.6g}; raise it with comm_modify cutoff, or if the mesh of a fluid membrane has lost its "
+             "shape, keep it with regularize in pair_coeff{}; if it was deleted, delete whole membranes",
              atom->tag[i], face_name(face), tags[neighbor], comm->get_comm_cutoff(),
              domain->nonperiodic ? ", unless it left the box, which is not periodic" : "");
   return -1;
