@@ -128,6 +128,7 @@ class FixHDLipids : public Fix {
   void start(Membrane_NS::FaceLipids);
   void keep();
   void follow_origins();
+  std::array<int, 3> sorted_corners(int face, const std::vector<bigint> &origins) const;
   KeptFace key_of(int face, const std::vector<bigint> &origins) const;
   double composed(int face, int leaflet) const;
 

@@ -52,10 +52,16 @@ std::string FixHDLipids::words_of(int type) const
   return words;
 }
 
-FixHDLipids::KeptFace FixHDLipids::key_of(int face, const std::vector<bigint> &origins) const
+std::array<int, 3> FixHDLipids::sorted_corners(int face, const std::vector<bigint> &origins) const
 {
   auto corners = mesh->topology().face(face);
   std::sort(corners.begin(), corners.end(), [&](int v, int w) { return origins[v] < origins[w]; });
+  return corners;
+}
+
+FixHDLipids::KeptFace FixHDLipids::key_of(int face, const std::vector<bigint> &origins) const
+{
+  const auto corners = sorted_corners(face, origins);
   KeptFace key;
   for (int k = 0; k < 3; ++k) {
     key.corners[k] = origins[corners[k]];
@@ -272,21 +278,16 @@ void FixHDLipids::follow_origins()
 {
   std::vector<KeptFace> now;
   for (int f = 0; f < mesh->topology().num_faces(); ++f) {
-    const KeptFace before = key_of(f, model->origins().before());
-    const auto its = std::lower_bound(kept.begin(), kept.end(), before);
-    if (its == kept.end() || its->corners != before.corners) continue;
-    KeptFace face = key_of(f, model->origins().now());
+    const auto &before = model->origins().before(), &after = model->origins().now();
+    KeptFace face = key_of(f, before);
+    const auto its = std::lower_bound(kept.begin(), kept.end(), face);
+    if (its == kept.end() || its->corners != face.corners) continue;
+    face = key_of(f, after);
 
-    // types of corners are those that they had: in the order of the new origins
+    // types are those that corners had
 
-    const auto types_before = its->types;
-    const auto vertices = mesh->topology().face(f);
-    for (int v : vertices) {
-      const auto at = [v](const KeptFace &key, const std::vector<bigint> &origins) {
-        return std::find(key.corners.begin(), key.corners.end(), origins[v]) - key.corners.begin();
-      };
-      face.types[at(face, model->origins().now())] = types_before[at(before, model->origins().before())];
-    }
+    const auto had = sorted_corners(f, before), have = sorted_corners(f, after);
+    for (int k = 0; k < 3; ++k) face.types[k] = its->types[std::find(had.begin(), had.end(), have[k]) - had.begin()];
     face.lipids = its->lipids;
     now.push_back(std::move(face));
   }
