@@ -305,7 +305,8 @@ std::string CreateMembrane::turn(TriangleMesh &mesh)
 void CreateMembrane::check_inside_box(const TriangleMesh &mesh)
 {
   for (const auto &p : mesh.points) {
-    const auto s = in_box_lengths(*domain, p.data());
+    const double d[3] = {p[0] - domain->boxlo[0], p[1] - domain->boxlo[1], p[2] - domain->boxlo[2]};
+    const auto s = in_box_lengths(*domain, d);
     for (int k = 0; k < 3; ++k)
       if (domain->periodicity[k] && !(std::fabs(s[k]) < FARTHEST))
         error->all(FLERR, "create_membrane {}: control point ({:.6g}, {:.6g}, {:.6g}) is more than {} boxes away in {}; use "

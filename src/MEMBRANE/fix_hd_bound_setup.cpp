@@ -396,7 +396,7 @@ void FixHDBound::choose_spring()
 
   const double kT = mover ? mover->sampled_kT() : 0.0, width = FARTHEST * limit->mean_edge() / SIGMAS;
   const double enough = kT / (width * width);
-  if (spring < enough && comm->me == 0)
+  if (spring < enough && update->setupflag && comm->me == 0)    // once a run, whatever changes the timestep
     error->warning(FLERR,
                    "Fix hd/bind spring {:.4g}: the temperature takes atoms {:.2g} edges off their places in the mean, and a "
                    "run stops at {}: {:.4g} would do, with a timestep of {:.3g} at most",

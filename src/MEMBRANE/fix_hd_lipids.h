@@ -90,7 +90,7 @@ class FixHDLipids : public Fix {
 
   // lipids, while faces stay
   std::unique_ptr<Membrane_NS::LipidExchange> exchange;
-  bool warned;    // that an integrator has another temperature
+  bool warned;       // that an integrator has another temperature
   bool published;    // to the mesh
   bool filled;
   LipidPlaces places;

@@ -24,6 +24,7 @@
 #include "mesh_distributed.h"
 #include "mesh_group.h"
 #include "modify.h"
+#include "update.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -70,6 +71,7 @@ void HDForeignIntegrators::warn(const DistributedMesh &mesh)
 
 void LAMMPS_NS::check_fixes_of_points(LAMMPS *lmp, const Fix *user, bool coupled, bool sampling, bool modes)
 {
+  if (lmp->update->whichflag != 1) return;    // minimizations know no masses
   const Atom *atom = lmp->atom;
   for (auto &fix : lmp->modify->get_fix_list()) {
     const bool turns = is_one_of(fix->style, {"^wall/reflect", "^oneway"});

@@ -130,6 +130,10 @@ for fixes, words in (("fix 1 all hd/langevin 0.05 0.05 1 4711 mass sampling\nfix
     claim(f"error: {fixes!r}", all(word in line for word in words), line[:150])
 output = run(COUPLED.format(fixes="fix w some lineforce 1 1 0\nmin_style membrane\nminimize 0 1e-3 2 10\nfix 1 all hd/nve mass lumped"))
 claim("min_style membrane warns of lines and planes", "keeps lines and planes that are parallel to axes" in output)
+output = run(COUPLED.format(fixes="fix 1 all hd/nve").replace("run             5", "fix w some setforce 0 0 0\nminimize 0 1e-3 2 10"))
+claim("forces taken in a minimization hold points: no warning", TAKES not in output)
+FAR = COUPLED.replace("boundary        f f f\n", "").replace("block -4 4 -4 4 -4 4", "block 4996 5004 -4 4 -4 4")
+claim("a box far from the origin is a box like others", "Loop time" in run(FAR.format(fixes="fix 1 all hd/nve")))
 output = run(COUPLED.format(fixes="fix 1 all hd/nve\nfix w all spring/self 5.0\nhd_timestep all"))
 claim("hd_timestep names fixes whose forces it does not know", "(without the forces of fixes: w (spring/self))" in output)
 
